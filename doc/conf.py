@@ -1,4 +1,6 @@
-"""Sphinx of yade-nonsmooth. Built inside YADE (the target "doc"), so that the reference can ask the classes themselves."""
+"""Sphinx of yade-nonsmooth. Built inside YADE (the target "doc"), so that the reference can ask the classes
+themselves.
+"""
 import glob
 import os
 import re
@@ -56,7 +58,9 @@ html_theme_options = {"sidebar_hide_name": False}
 
 
 def forget_copied_notebooks(app):
-    """Removes the notebooks that a build before copied here: nbsphinx copies without force, and Sphinx 8 does not overwrite."""
+    """Removes the notebooks that a build before copied here: nbsphinx copies without force, and Sphinx 8 does not
+    overwrite.
+    """
     for copy in glob.glob(os.path.join(app.outdir, "**", "*.ipynb"), recursive=True):
         os.remove(copy)
 

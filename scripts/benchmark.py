@@ -24,7 +24,7 @@ from yade.nonsmooth.system.whole_files import write_json
 
 
 def read_arguments():
-    parser = argparse.ArgumentParser(prog="benchmark.py", description=__doc__.splitlines()[0])
+    parser = argparse.ArgumentParser(prog="benchmark.py", description=__doc__.partition("\n\n")[0])
     arguments.add_out(parser, "out/benchmark")
     parser.add_argument(
         "--quick", action="store_true", help="fewer steps and repetitions: minutes, quartiles a little wider"

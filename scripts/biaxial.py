@@ -27,7 +27,7 @@ CYCLE_STRAIN = (
 
 
 def read_arguments():
-    parser = argparse.ArgumentParser(prog="biaxial.py", description=__doc__.splitlines()[0])
+    parser = argparse.ArgumentParser(prog="biaxial.py", description=__doc__.partition("\n\n")[0])
     parser.add_argument(
         "--material",
         default="wwr",

@@ -23,7 +23,7 @@ from yade.nonsmooth.system.whole_files import write_json
 
 
 def read_arguments():
-    parser = argparse.ArgumentParser(prog="biaxial_effects.py", description=__doc__.splitlines()[0])
+    parser = argparse.ArgumentParser(prog="biaxial_effects.py", description=__doc__.partition("\n\n")[0])
     parser.add_argument("--material", default="wwr", metavar="NAME|FILE", help="wwr (default), or a material file")
     arguments.add_disks(parser, effects.COUNT, "disks of the usual sample")
     parser.add_argument(

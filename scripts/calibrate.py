@@ -3,8 +3,8 @@
 
   scripts/calibrate.py --cohesion PA --friction DEG [--residual-cohesion PA --residual-friction DEG] [--quick] --out material.yaml
 
-It says first how long it takes. Where c and φ are within the table of calibrated rocks, a section may ask for them straight, without a search:
-materials.NAME: {cohesion: PA, friction_angle: DEG}.
+It says first how long it takes. Where c and φ are within the table of calibrated rocks, a section may ask for them
+straight, without a search: materials.NAME: {cohesion: PA, friction_angle: DEG}.
 """
 import os, sys
 
@@ -29,7 +29,7 @@ WEAKEST = 1000.0  # Pa; a smaller cohesion is one in kPa
 
 
 def read_arguments():
-    parser = argparse.ArgumentParser(prog="calibrate.py", description=__doc__.splitlines()[0])
+    parser = argparse.ArgumentParser(prog="calibrate.py", description=__doc__.partition("\n\n")[0])
     parser.add_argument("--cohesion", type=float, required=True, metavar="PA", help="wanted peak cohesion [Pa]")
     parser.add_argument(
         "--friction", type=float, required=True, metavar="DEG", help="wanted peak angle of friction [°]"

@@ -1,5 +1,6 @@
 #!/usr/bin/env python3
-"""Columns of grains that collapse, and piles: runout and final height against the aspect ratio, with hard or with soft contacts.
+"""Columns of grains that collapse, and piles: runout and final height against the aspect ratio, with hard or with soft
+contacts.
 
   scripts/column.py [--aspect A,A,…] [--disks N] [--seeds S …] [--world hard|soft] [--out DIR] [--threads T] [--resume]
   scripts/column.py --kind pile --aspect 1 --disks 500
@@ -33,7 +34,7 @@ def numbers(text):
 
 def read_arguments():
     usual = study.KINDS["column"]()
-    parser = argparse.ArgumentParser(prog="column.py", description=__doc__.splitlines()[0])
+    parser = argparse.ArgumentParser(prog="column.py", description=__doc__.partition("\n\n")[0])
     parser.add_argument(
         "--kind",
         choices=tuple(study.KINDS),

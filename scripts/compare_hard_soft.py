@@ -46,7 +46,7 @@ def measure_cost(args, out):
 
 
 def main():
-    args = options.read(__doc__.splitlines()[0])
+    args = options.read(__doc__.partition("\n\n")[0])
     out = Path(args.out)
     output_folder.claim(out, "compare_hard_soft.py", args.resume)
     if args.cost:

@@ -1,5 +1,6 @@
 #!/usr/bin/env python3
-"""A video of any YADE script, which stays as it is: disks, walls, bonds and forces, with one view and one scale of forces.
+"""A video of any YADE script, which stays as it is: disks, walls, bonds and forces, with one view and one scale of
+forces.
 
   scripts/film.py [--out FILE.mp4|FILE.gif] [--period S] [--frames N] [--fps F] [--no-forces] SCRIPT [ARGS]
   scripts/film.py --out fall.mp4 --period 0.02 scripts/examples/hard_pile.py
@@ -20,7 +21,7 @@ from yade.nonsmooth.figures import film, moving
 
 
 def read_arguments():
-    parser = argparse.ArgumentParser(prog="film.py", description=__doc__.splitlines()[0])
+    parser = argparse.ArgumentParser(prog="film.py", description=__doc__.partition("\n\n")[0])
     parser.add_argument(
         "--out", metavar="FILE", help="the video, .mp4 (by ffmpeg) or .gif (default: that of SCRIPT in this folder)"
     )

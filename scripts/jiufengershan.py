@@ -13,6 +13,6 @@ from yade.nonsmooth import commands
 from yade.nonsmooth.studies.slope import slope_command
 
 commands.run(
-    lambda: slope_command.run("jiufengershan.py", __doc__.splitlines()[0], "jiufengershan"),
+    lambda: slope_command.run("jiufengershan.py", __doc__.partition("\n\n")[0], "jiufengershan"),
     "where there is a checkpoint, --resume goes on from it",
 )

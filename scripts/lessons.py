@@ -1,5 +1,6 @@
 #!/usr/bin/env python3
-"""The lessons of scripts/examples, hard and soft: runs them with the parameters that doc/lessons.rst speaks of, and keeps their numbers and a video of each.
+"""The lessons of scripts/examples, hard and soft: runs them with the parameters that doc/lessons.rst speaks of, and
+keeps their numbers and a video of each.
 
   scripts/lessons.py [LESSON …] [--out DIR] [--threads T] [--resume] [--no-films]
 """
@@ -26,7 +27,7 @@ def shown(value):
 
 
 def main():
-    parser = argparse.ArgumentParser(prog="lessons.py", description=__doc__.splitlines()[0])
+    parser = argparse.ArgumentParser(prog="lessons.py", description=__doc__.partition("\n\n")[0])
     parser.add_argument(
         "lessons", nargs="*", metavar="LESSON", help=f"some of {', '.join(lessons.CASES)} (default: all)"
     )

@@ -1,5 +1,6 @@
 #!/usr/bin/python3
-"""The paper's avalanche beside control runs: the shipped slope with and without weakening, with other releases from water, and with a table that stops at t1; numbers and figures.
+"""The paper's avalanche beside control runs: the shipped slope with and without weakening, with other releases from
+water, and with a table that stops at t1; numbers and figures.
 
   scripts/paper.py [--only NAME …] [--disks N] [--seeds S …] [--out DIR] [--threads T] [--resume]
 """
@@ -25,7 +26,7 @@ else:  # YADE runs in processes of its own
 
 
 def read_arguments():
-    parser = argparse.ArgumentParser(prog="paper.py", description=__doc__.splitlines()[0])
+    parser = argparse.ArgumentParser(prog="paper.py", description=__doc__.partition("\n\n")[0])
     parser.add_argument(
         "--only",
         nargs="+",

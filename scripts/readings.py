@@ -1,5 +1,6 @@
 #!/usr/bin/python3
-"""What the paper leaves open, read in several ways: for each reading the strengths of the rock and the water that its slope bears, beside the paper's.
+"""What the paper leaves open, read in several ways: for each reading the strengths of the rock and the water that its
+slope bears, beside the paper's.
 
   scripts/readings.py [--only NAME …] [--platens KIND …] [--disks N] [--samples N] [--seeds S …] [--confining MPA,…] [--strain E] [--no-slopes] [--out DIR] [--threads T] [--resume]
 """
@@ -27,7 +28,7 @@ else:  # YADE runs in processes of its own
 
 
 def read_arguments():
-    parser = argparse.ArgumentParser(prog="readings.py", description=__doc__.splitlines()[0])
+    parser = argparse.ArgumentParser(prog="readings.py", description=__doc__.partition("\n\n")[0])
     parser.add_argument(
         "--only",
         nargs="+",

@@ -1,9 +1,11 @@
 #!/usr/bin/python3
-"""Measures the table of calibrated rocks, from which a section takes contact parameters for a cohesion and an angle of friction.
+"""Measures the table of calibrated rocks, from which a section takes contact parameters for a cohesion and an angle of
+friction.
 
   scripts/rocks.py [--check] [--disks N] [--frictions MU …] [--seeds S …] [--out DIR] [--threads T] [--resume]
 
-The shipped table, py/nonsmooth/sections/rocks.json, is the rocks.json that it writes. With --check it asks that table for rocks, and measures them on other samples.
+The shipped table, py/nonsmooth/sections/rocks.json, is the rocks.json that it writes. With --check it asks that table
+for rocks, and measures them on other samples.
 """
 import argparse
 import sys
@@ -29,7 +31,7 @@ else:  # YADE runs in processes of its own
 
 
 def read_arguments():
-    parser = argparse.ArgumentParser(prog="rocks.py", description=__doc__.splitlines()[0])
+    parser = argparse.ArgumentParser(prog="rocks.py", description=__doc__.partition("\n\n")[0])
     parser.add_argument(
         "--check", action="store_true", help="measure rocks that the shipped table was asked for, on samples of its own"
     )

@@ -14,6 +14,6 @@ from yade.nonsmooth import commands
 from yade.nonsmooth.studies.slope import slope_command
 
 commands.run(
-    lambda: slope_command.run("slope.py", __doc__.splitlines()[0]),
+    lambda: slope_command.run("slope.py", __doc__.partition("\n\n")[0]),
     "where there is a checkpoint, --resume goes on from it",
 )

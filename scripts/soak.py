@@ -1,5 +1,6 @@
 #!/usr/bin/env python3
-"""A soak: disks in a turning drum for very many steps. Overlap, energy and memory must not grow; the exit status is 1 where one does.
+"""A soak: disks in a turning drum for very many steps. Overlap, energy and memory must not grow; the exit status is 1
+where one does.
 
   scripts/soak.py [--steps N] [--disks N] [--seed S] [--way advance|step] [--out FILE] [--threads T]
 """
@@ -20,7 +21,7 @@ from yade.nonsmooth.system.whole_files import write_json
 
 
 def read_arguments():
-    parser = argparse.ArgumentParser(prog="soak.py", description=__doc__.splitlines()[0])
+    parser = argparse.ArgumentParser(prog="soak.py", description=__doc__.partition("\n\n")[0])
     parser.add_argument(
         "--steps",
         type=int,

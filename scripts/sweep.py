@@ -1,5 +1,6 @@
 #!/usr/bin/python3
-"""Many runs of a slope with some of its values varied, as many at a time as there are threads, and one table of what they found.
+"""Many runs of a slope with some of its values varied, as many at a time as there are threads, and one table of what
+they found.
 
   scripts/sweep.py --section NAME|FILE --over KEY=VALUE,VALUE,… [--over …] [--disks N] [--out DIR] [--threads T] [--resume]
   scripts/sweep.py --section NAME|FILE --over … --out DIR --plan     only write the plan, with files for Snakemake and Slurm
@@ -28,7 +29,7 @@ SHOWN = ("verdict", "water_highest_m", "water_at_failure_m", "front_travel_m", "
 
 
 def read_arguments():
-    parser = argparse.ArgumentParser(prog="sweep.py", description=__doc__.splitlines()[0])
+    parser = argparse.ArgumentParser(prog="sweep.py", description=__doc__.partition("\n\n")[0])
     section_arguments.add(parser, needless=("--run", "--number", "--collect"))
     parser.add_argument(
         "--over",
@@ -113,7 +114,9 @@ def main():
 
 
 def print_notes(notes):
-    """The notes of the first runs, some lines; of the other runs how many there are. A note begins with the name of its run."""
+    """The notes of the first runs, some lines; of the other runs how many there are. A note begins with the name of its
+    run.
+    """
     of_runs = {}
     for note in notes:
         of_runs.setdefault(note.partition(":")[0], []).append(note)
@@ -150,7 +153,9 @@ def key_of(varied):
 
 
 def show(table, out, drawn, known=None):
-    """The varied values and some results, and a figure of those that are ``drawn``; all are in the file. ``known``: names of results, which a table lacks where no run has a value."""
+    """The varied values and some results, and a figure of those that are ``drawn``; all are in the file. ``known``:
+    names of results, which a table lacks where no run has a value.
+    """
     absent = {name: [None] * len(table["run"]) for name in drawn or () if name not in table and name in (known or ())}
     varied = list(campaign.read(out).runs[0].values)
     names = [*varied, *(name for name in SHOWN if name in table)]

@@ -1,5 +1,6 @@
 #!/usr/bin/python3
-"""The strengths of the rock and of the walls beside the paper's Table 1: biaxial tests and slides, as many at a time as there are threads.
+"""The strengths of the rock and of the walls beside the paper's Table 1: biaxial tests and slides, as many at a time as
+there are threads.
 
   scripts/table1.py [--disks N] [--seeds S …] [--confining MPA,…] [--material NAME|FILE] [--out DIR] [--threads T] [--resume]
 """
@@ -25,7 +26,7 @@ else:  # YADE runs in processes of its own
 
 
 def read_arguments():
-    parser = argparse.ArgumentParser(prog="table1.py", description=__doc__.splitlines()[0])
+    parser = argparse.ArgumentParser(prog="table1.py", description=__doc__.partition("\n\n")[0])
     parser.add_argument(
         "--material",
         default="wwr",

@@ -1,5 +1,6 @@
 #!/usr/bin/env python3
-"""Holds the law, the time stepping and the solver against derivations, other codes and finer steps, and writes an HTML report.
+"""Holds the law, the time stepping and the solver against derivations, other codes and finer steps, and writes an HTML
+report.
 
   scripts/verify.py [--out DIR] [--quick] [--only NAME …] [--threads T] [--resume] [--list]
 """
@@ -23,7 +24,7 @@ from yade.nonsmooth.system import output_folder
 
 
 def arguments():
-    parser = argparse.ArgumentParser(prog="verify.py", description=__doc__.splitlines()[0])
+    parser = argparse.ArgumentParser(prog="verify.py", description=__doc__.partition("\n\n")[0])
     options.add_out(parser, "out/verify", "the report")
     parser.add_argument(
         "--quick", action="store_true", help="the subset that takes minutes: smaller samples, fewer points"

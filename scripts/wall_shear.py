@@ -1,5 +1,6 @@
 #!/usr/bin/env python3
-"""Sliding tests of a packing on a wall (Taboada and Estrada 2009, section 3.3): friction and cohesion of DP, FB and SS in Table 1.
+"""Sliding tests of a packing on a wall (Taboada and Estrada 2009, section 3.3): friction and cohesion of DP, FB and SS
+in Table 1.
 
   scripts/wall_shear.py [--material NAME|FILE …] [--pressures MPA,MPA,…] [--seeds S …] [--out DIR] [--threads T] [--resume]
 """
@@ -22,7 +23,7 @@ from yade.nonsmooth.system.whole_files import write_json
 
 
 def read_arguments():
-    parser = argparse.ArgumentParser(prog="wall_shear.py", description=__doc__.splitlines()[0])
+    parser = argparse.ArgumentParser(prog="wall_shear.py", description=__doc__.partition("\n\n")[0])
     parser.add_argument(
         "--material",
         nargs="+",

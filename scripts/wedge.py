@@ -1,5 +1,6 @@
 #!/usr/bin/env python3
-"""The wedge on a joint, hard and soft: runs scripts/examples/hard_wedge.py and soft_wedge.py and draws displacement against time.
+"""The wedge on a joint, hard and soft: runs scripts/examples/hard_wedge.py and soft_wedge.py and draws displacement
+against time.
 
   scripts/wedge.py [--seconds S] [--out DIR] [--resume]
 """
@@ -43,7 +44,7 @@ class WedgeError(errors.UserError):
 
 
 def read_arguments():
-    parser = argparse.ArgumentParser(prog="wedge.py", description=__doc__.splitlines()[0])
+    parser = argparse.ArgumentParser(prog="wedge.py", description=__doc__.partition("\n\n")[0])
     parser.add_argument(
         "--seconds", type=float, default=60, metavar="S", help="simulated time [s] (default: %(default)g)"
     )
@@ -56,7 +57,9 @@ def read_arguments():
 
 
 def curve(out, key, script, parameters, resume):
-    """Arrays t [s], centroid and largest [mm] of a run, kept in ``out``/``key``.txt with what it is of in ``key``.key."""
+    """Arrays t [s], centroid and largest [mm] of a run, kept in ``out``/``key``.txt with what it is of in
+    ``key``.key.
+    """
     table, kept, part, mark = (out / f"{key}.{end}" for end in ("table", "txt", "part", "key"))
     wanted = "{}\n{}\n".format(
         " ".join([*parameters, "save"]), " ".join([*map(repr, parameters.values()), repr(part.name)])
@@ -78,7 +81,8 @@ def curve(out, key, script, parameters, resume):
             raise WedgeError(f"{script} with {table}: ended with status {done.returncode}: {done.stderr[-500:]}")
         os.replace(part, kept)
     found = np.genfromtxt(kept, names=True)
-    # O.run may lose an engine's refusal (see yade.nonsmooth.world.stepping), and the script then ends as if nothing were wrong
+    # O.run may lose an engine's refusal (see yade.nonsmooth.world.stepping), and the script then ends as if nothing
+    # were wrong
     if not found["t"].size or found["t"].max() < parameters["seconds"] - 0.2:
         raise WedgeError(
             f"{kept}: the run ended before {parameters['seconds']:g} s; see what {script} says with YADE_BATCH={table}:2, remove the file, and run again"

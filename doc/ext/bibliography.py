@@ -1,5 +1,6 @@
-"""Takes the citations of ``.. bibliography::`` out of the container that sphinxcontrib-bibtex puts them into: docutils' writer closes the list of a container's
-first child without having opened it, and the theme's footer then stands beside the page."""
+"""Takes the citations of ``.. bibliography::`` out of the container that sphinxcontrib-bibtex puts them into: docutils'
+writer closes the list of a container's first child without having opened it, and the theme's footer then stands beside
+the page."""
 from docutils import nodes
 
 

@@ -1,9 +1,12 @@
-"""Numbers and tables of documentation pages, from files that commands wrote and that are kept as doc/measured/NAME.json.
+"""Numbers and tables of documentation pages, from files that commands wrote and that are kept as
+doc/measured/NAME.json.
 
 ``:measured:`NAME KEY[/KEY][*FACTOR] FORMAT``` is one number: KEY of the file (a dot goes into a dictionary, or to an item of a list by its number), over another one and times FACTOR if these are given, as
-Python's FORMAT writes it. Names that have dots themselves, as those of a sweep's means, are found too. A mean over seeds, a dictionary with ``mean`` and ``half_width``, is written with its interval, as 1.2 ± 0.3.
-``.. measured-tables:: NAME`` shows the tables of a check's result.json (scripts/verify.py), or those whose title begins with the directive's text.
-A file or key that is not there is an error of the build: a page must not show what nobody measured.
+Python's FORMAT writes it. Names that have dots themselves, as those of a sweep's means, are found too. A mean over
+seeds, a dictionary with ``mean`` and ``half_width``, is written with its interval, as 1.2 ± 0.3.
+``.. measured-tables:: NAME`` shows the tables of a check's result.json (scripts/verify.py), or those whose title begins
+with the directive's text. A file or key that is not there is an error of the build: a page must not show what nobody
+measured.
 """
 import json
 import pathlib

@@ -1,4 +1,6 @@
-"""``.. needed-packages::`` a table of what a plain Python needs, from the package's list (py/nonsmooth/system/requirements.txt)."""
+"""``.. needed-packages::`` a table of what a plain Python needs, from the package's list
+(py/nonsmooth/system/requirements.txt).
+"""
 from docutils.parsers.rst import Directive
 
 import rst

@@ -1,7 +1,9 @@
-"""``.. picture:: NAME.png`` shows doc/figures/NAME.png with the directive's text as caption; without the file only the caption is there.
+"""``.. picture:: NAME.png`` shows doc/figures/NAME.png with the directive's text as caption; without the file only the
+caption is there.
 
-Where there are ``NAME-1.png``, ``NAME-2.png`` … instead, they are panels of one picture: beside each other where the page is wide enough, and one below the other on a narrow one, or
-where they are wide themselves. Wide pictures of one file keep a readable width on narrow pages, which are moved sideways.
+Where there are ``NAME-1.png``, ``NAME-2.png`` … instead, they are panels of one picture: beside each other where the
+page is wide enough, and one below the other on a narrow one, or where they are wide themselves. Wide pictures of one
+file keep a readable width on narrow pages, which are moved sideways.
 
 Figures are made by runs of many minutes, so a checkout may not have them all.
 """

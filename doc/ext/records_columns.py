@@ -1,4 +1,6 @@
-"""``.. records-columns:: studies.heaps.columns`` a table of the columns of a series, from their declaration ``COLUMNS`` in a module of yade.nonsmooth, or of another ``NAME`` as a second argument."""
+"""``.. records-columns:: studies.heaps.columns`` a table of the columns of a series, from their declaration ``COLUMNS``
+in a module of yade.nonsmooth, or of another ``NAME`` as a second argument.
+"""
 import importlib
 
 from docutils.parsers.rst import Directive

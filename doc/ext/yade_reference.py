@@ -3,8 +3,8 @@
 ``.. yade-class:: NAME ...``   doc, attributes and methods of each class
 ``.. yade-other-classes::``    the same for every class of pkg/dem that no page has named
 
-YADE's docstrings use roles of its own: ``:yref:`` links to a class or attribute of this plugin (other names stay plain text);
-``:ydefault:``, ``:yattrtype:`` and ``:yattrflags:`` are read here and never shown.
+YADE's docstrings use roles of its own: ``:yref:`` links to a class or attribute of this plugin (other names stay plain
+text); ``:ydefault:``, ``:yattrtype:`` and ``:yattrflags:`` are read here and never shown.
 """
 import importlib
 import inspect

@@ -1,6 +1,7 @@
 """Contact Dynamics (Nonlinear Gauss-Seidel, Moreau-Jean) for YADE: sections, scenarios, measurements, figures.
 
-Modules stand in rooms, each of which imports only from those above it (doc/house.rst). Scripts take what :data:`FACE` names from here: ``from yade.nonsmooth import section``.
+Modules stand in rooms, each of which imports only from those above it (doc/house.rst). Scripts take what :data:`FACE`
+names from here: ``from yade.nonsmooth import section``.
 """
 
 import importlib
@@ -17,7 +18,8 @@ if __name__ == "yade.nonsmooth":
 
     plugin.require()
 
-#: What scripts and notebooks build on (doc/python.rst), and where it stands; ``import yade.nonsmooth.laboratory.campaign`` works too.
+#: What scripts and notebooks build on (doc/python.rst), and where it stands;
+#: ``import yade.nonsmooth.laboratory.campaign`` works too.
 FACE = {
     "section": "model.section",
     "section_parts": "model.section.parts",

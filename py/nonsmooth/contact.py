@@ -1,7 +1,8 @@
 """Contact problems of single steps as arrays and files, and the solver without YADE.
 
-A problem is what one step of :class:`ContactDynamicsEngine` has to solve: write it with ``engine.dump("step.h5")``, read it here. The file's
-format stands in ``pkg/contact/problem_file.hpp``. Needs NumPy and this project's module ``_nonsmooth_contact``, but no YADE::
+A problem is what one step of :class:`ContactDynamicsEngine` has to solve: write it with ``engine.dump("step.h5")``,
+read it here. The file's format stands in ``pkg/contact/problem_file.hpp``. Needs NumPy and this project's module
+``_nonsmooth_contact``, but no YADE::
 
     import nonsmooth.contact as contact
     problem = contact.load("step.h5")
@@ -41,7 +42,9 @@ class ProblemError(UserError, ValueError):
 
 @dataclass(frozen=True)
 class ContactProblem:
-    """b bodies and c contacts; SI units, masses and impulses per metre of thickness, compression positive, contacts from i to j."""
+    """b bodies and c contacts; SI units, masses and impulses per metre of thickness, compression positive, contacts
+    from i to j.
+    """
 
     time_step: float  # h [s]
     inverse_mass: np.ndarray  # (b, 3): 1/m_x, 1/m_y [1/kg], 1/I [1/(kg m²)]; 0 where blocked
@@ -65,22 +68,26 @@ class ContactProblem:
 
 @dataclass(frozen=True)
 class Residual:
-    """Distance from the graphs of the law (natural map), whoever found the impulses; rms and largest value over contacts."""
+    """Distance from the graphs of the law (natural map), whoever found the impulses; rms and largest value over
+    contacts.
+    """
 
     relative: float  # rms over the rms impulse: what tolerances are given for
     force_rms: float  # [N]
     force_largest: float  # [N]
     speed_rms: float  # [m/s]
     speed_largest: float  # [m/s]
-    speed_share: float  # rms over contacts of what relative velocities miss, as a share of it and of the bodies' change of velocity [-]
+    # rms over contacts of what relative velocities miss, as a share of it and of the bodies' change of velocity [-]
+    speed_share: float
     speed_share_largest: float
     defect: np.ndarray  # (c, 3): P − proj(P − (U + b)/W) of every contact [N s, N s, N m s]
 
 
 @dataclass(frozen=True)
 class VelocityChanges:
-    """What LMGC90's stopping tests look at, for impulses whoever found them: the changes of relative velocity that one more visit of each contact
-    would make, in five dimensionless figures (``pkg/contact/stopping.hpp``), and what each test compares with its tolerance.
+    """What LMGC90's stopping tests look at, for impulses whoever found them: the changes of relative velocity that one
+    more visit of each contact would make, in five dimensionless figures (``pkg/contact/stopping.hpp``), and what each
+    test compares with its tolerance.
     """
 
     velocity: float  # rms change of velocity over rms W P
@@ -105,7 +112,8 @@ class Solution:
     patches: int  # of contacts around mass jumps that were solved at once, each as often as it was
     converged: bool
     relative: float  # residual (natural map) of what is returned, whatever test stopped the solver
-    speed_share: float  # rms over contacts of the share of their speed that is left open (ϑ of pkg/contact/residual.hpp) [-]
+    # rms over contacts of the share of their speed that is left open (ϑ of pkg/contact/residual.hpp) [-]
+    speed_share: float
     speed_share_largest: float  # the largest of them, of a contact's point and without rolling
     seconds: float  # wall time of the solve, without the copying of arrays [s]
 
@@ -135,7 +143,8 @@ def load(path) -> ContactProblem:
 
 
 def check(problem: ContactProblem, what="contact problem") -> ContactProblem:
-    """Returns the problem if all arrays have the shapes and kinds of numbers they must have, and contacts name bodies that are there.
+    """Returns the problem if all arrays have the shapes and kinds of numbers they must have, and contacts name bodies
+    that are there.
 
     Raises ProblemError naming the array otherwise. Values are :func:`solve`'s to refuse.
     """
@@ -238,13 +247,14 @@ def solve(
 ) -> Solution:
     """Solves the problem with the project's solver.
 
-    ``method``: "accelerated" or "gaussSeidel"; ``start``: "warm" (what the step began with), "cold" (zero) or impulses of shape (c, 3).
-    ``stopping``: what ``tolerance`` is compared with: "naturalMap" (the residual) or one of LMGC90's tests, "Quad", "Maxm", "QM/16".
-    ``path``: the loops of the sweep: "best" (four or eight contacts at a time, by the fastest instructions of this processor), one of :func:`paths`
-    with the same bits, or "reference" (contact after contact, by the general formulas; the same solution to within the tolerance).
-    ``precision``: "mixed" (sweeps in single precision where ``tolerance`` is 1e-5 or more and ``stopping`` "naturalMap"; what they find is held against the law,
-    and swept on, in double precision) or "double".
-    Raises ProblemError for settings without sense, and for numbers that are not finite or must not be negative, naming the body or contact.
+    ``method``: "accelerated" or "gaussSeidel"; ``start``: "warm" (what the step began with), "cold" (zero) or impulses
+    of shape (c, 3). ``stopping``: what ``tolerance`` is compared with: "naturalMap" (the residual) or one of LMGC90's
+    tests, "Quad", "Maxm", "QM/16". ``path``: the loops of the sweep: "best" (four or eight contacts at a time, by the
+    fastest instructions of this processor), one of :func:`paths` with the same bits, or "reference" (contact after
+    contact, by the general formulas; the same solution to within the tolerance). ``precision``: "mixed" (sweeps in
+    single precision where ``tolerance`` is 1e-5 or more and ``stopping`` "naturalMap"; what they find is held against
+    the law, and swept on, in double precision) or "double". Raises ProblemError for settings without sense, and for
+    numbers that are not finite or must not be negative, naming the body or contact.
     """
     import _nonsmooth_contact
 
@@ -292,7 +302,9 @@ def solve(
 
 
 def paths() -> tuple:
-    """Names for :func:`solve`'s ``path`` on this processor: what it has of "avx512" and "avx2", the fastest first, then "portable" and "reference"."""
+    """Names for :func:`solve`'s ``path`` on this processor: what it has of "avx512" and "avx2", the fastest first, then
+    "portable" and "reference".
+    """
     import _nonsmooth_contact
 
     return (*_nonsmooth_contact.kernels, "reference")
@@ -317,7 +329,9 @@ def residual(problem: ContactProblem, impulse=None) -> Residual:
 
 
 def velocity_changes(problem: ContactProblem, impulse=None) -> VelocityChanges:
-    """Figures of LMGC90's stopping tests for impulses of shape (c, 3) (default: those in the problem), from velocities computed anew."""
+    """Figures of LMGC90's stopping tests for impulses of shape (c, 3) (default: those in the problem), from velocities
+    computed anew.
+    """
     import _nonsmooth_contact
 
     return VelocityChanges(

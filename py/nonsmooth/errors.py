@@ -1,10 +1,14 @@
-"""The bases of errors that a user can mend, and of warnings: scripts print their message alone, one line, and no traceback."""
+"""The bases of errors that a user can mend, and of warnings: scripts print their message alone, one line, and no
+traceback.
+"""
 
 __all__ = ["OldNameWarning", "UserError", "UserNote"]
 
 
 class UserError(Exception):
-    """Bad input, a file or folder that cannot be used, a run that cannot go on; the message names what is wrong and what helps."""
+    """Bad input, a file or folder that cannot be used, a run that cannot go on; the message names what is wrong and
+    what helps.
+    """
 
     def _render_traceback_(self):
         """What IPython shows in place of a traceback, by its own name: in a notebook the message stands alone too."""

@@ -1,7 +1,9 @@
 #!/usr/bin/env python3
-"""Two bonded disks are pulled apart by a force that grows: prints the force at which the bond yields, by its tensile strength.
+"""Two bonded disks are pulled apart by a force that grows: prints the force at which the bond yields, by its tensile
+strength.
 
-Exercise 5 of doc/exercises.rst. The force may point away from the other disk (angle 0), or aside (90). Parameters come from a table (yade-batch), or are those below.
+Exercise 5 of doc/exercises.rst. The force may point away from the other disk (angle 0), or aside (90). Parameters come
+from a table (yade-batch), or are those below.
 """
 import os, sys
 
@@ -15,7 +17,8 @@ from yade import utils
 from yade.nonsmooth import parameters
 from yade.nonsmooth.scene import disk, engines
 
-# angle [°] of the force from the line of centres; friction; strength [Pa] of the bond; radius [m]; seconds in which the force reaches twice that strength
+# angle [°] of the force from the line of centres; friction; strength [Pa] of the bond; radius [m]; seconds in which the
+# force reaches twice that strength
 utils.readParamsFromTable(angle=0, friction=0.5, strength=1e5, radius=0.5, seconds=4, dt=2e-3)
 from yade.params import table
 

@@ -1,5 +1,6 @@
 #!/usr/bin/env python3
-"""A block is pulled along a joint that loses its friction with slip: prints the friction that the block meets on its way.
+"""A block is pulled along a joint that loses its friction with slip: prints the friction that the block meets on its
+way.
 
 Exercise 6 of doc/exercises.rst. Parameters come from a table (yade-batch), or are those below.
 """
@@ -15,7 +16,8 @@ from yade import utils
 from yade.nonsmooth import parameters
 from yade.nonsmooth.scene import disk, engines, segments
 
-# friction of the joint, friction when it has lost its strength, the slip D_c [m] at which it has, law: linear, step or exponential; speed [m/s] of the block; time step [s]
+# friction of the joint, friction when it has lost its strength, the slip D_c [m] at which it has, law: linear, step or
+# exponential; speed [m/s] of the block; time step [s]
 utils.readParamsFromTable(friction=0.6, weakened=0.1, critical=0.5, law="linear", speed=0.1, dt=5e-3)
 from yade.params import table
 

@@ -1,4 +1,6 @@
-"""The solver's face in Python without YADE: what it refuses, and that a file and a solve keep every bit. Needs the build's folder ``python`` on PYTHONPATH."""
+"""The solver's face in Python without YADE: what it refuses, and that a file and a solve keep every bit. Needs the
+build's folder ``python`` on PYTHONPATH.
+"""
 
 from dataclasses import replace
 from pathlib import Path

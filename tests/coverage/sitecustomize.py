@@ -1,5 +1,5 @@
-"""Starts coverage.py in every Python, also the one inside YADE and those that tests start, where COVERAGE_PROCESS_START names its settings; at the end the
-engines write theirs."""
+"""Starts coverage.py in every Python, also the one inside YADE and those that tests start, where COVERAGE_PROCESS_START
+names its settings; at the end the engines write theirs."""
 import atexit
 import ctypes
 import re

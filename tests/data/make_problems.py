@@ -1,5 +1,6 @@
 #!/usr/bin/env python3
-"""Makes the contact problems of a slope that stand in tests/data: slope_t1.h5 and avalanche_t4.h5 (see README.md there).
+"""Makes the contact problems of a slope that stand in tests/data: slope_t1.h5 and avalanche_t4.h5 (see README.md
+there).
 
   tests/data/make_problems.py [--disks N] [--out DIR]
 """
@@ -26,7 +27,7 @@ EVERY = 0.5  # s of the simulation between two problems that are kept for the ch
 
 
 def arguments():
-    parser = argparse.ArgumentParser(prog="make_problems.py", description=__doc__.splitlines()[0])
+    parser = argparse.ArgumentParser(prog="make_problems.py", description=__doc__.partition("\n\n")[0])
     parser.add_argument("--disks", type=int, default=1200, metavar="N", help="about N disks (default: %(default)s)")
     parser.add_argument(
         "--out",

@@ -20,7 +20,9 @@ TOLERANCE = 1e-13  # on Siconos's own error; it stops where rounding lets it
 
 
 def clusters():
-    """Twenty clusters of 3 to 22 disks: those with an even number have friction alone, those with an odd one rolling resistance and cohesion too."""
+    """Twenty clusters of 3 to 22 disks: those with an even number have friction alone, those with an odd one rolling
+    resistance and cohesion too.
+    """
     return [
         disk_problems.random_cluster(seed, 3 + seed, rolling=bool(seed % 2), cohesion=bool(seed % 2))
         for seed in range(20)
@@ -43,7 +45,7 @@ def joined(problems):
 
 
 def main():
-    parser = argparse.ArgumentParser(prog="make_siconos_answers.py", description=__doc__.splitlines()[0])
+    parser = argparse.ArgumentParser(prog="make_siconos_answers.py", description=__doc__.partition("\n\n")[0])
     parser.add_argument(
         "--out", default=HERE / "siconos_clusters.h5", type=Path, metavar="FILE", help="default: %(default)s"
     )

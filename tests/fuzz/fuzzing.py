@@ -9,7 +9,9 @@ import hypothesis
 
 
 def settings(variable, default, share=1.0):
-    """Hypothesis' settings: the same examples each time; the environment's ``variable``, times ``share``, says how many."""
+    """Hypothesis' settings: the same examples each time; the environment's ``variable``, times ``share``, says how
+    many.
+    """
     count = math.ceil(share * int(os.environ[variable])) if variable in os.environ else default
     return hypothesis.settings(
         max_examples=count,

@@ -1,4 +1,5 @@
-"""Packing files broken in many ways: each gives a packing of the section or a PackingError of one line that names the file, within 20 s. Needs no YADE.
+"""Packing files broken in many ways: each gives a packing of the section or a PackingError of one line that names the
+file, within 20 s. Needs no YADE.
 
 NONSMOOTH_FUZZ_PACKINGS: how many files (default: a share of CI's time); the same ones each time.
 """
@@ -191,7 +192,9 @@ def test_damaged_arrays(changes):
 
 
 def test_every_bit_of_a_directory():
-    """The end of an .npz says where its arrays are, and how packed: zipfile lets through what it makes of a damaged one."""
+    """The end of an .npz says where its arrays are, and how packed: zipfile lets through what it makes of a damaged
+    one.
+    """
     small = packing.Packing(np.arange(20.0), np.zeros(20), np.full(20, 0.4), np.zeros(20))
     with tempfile.TemporaryDirectory() as folder:
         path = Path(folder) / "p.npz"

@@ -1,7 +1,9 @@
-"""Damaged and made-up contact-problem files: each is refused by one message that names the file, or read and solved right.
+"""Damaged and made-up contact-problem files: each is refused by one message that names the file, or read and solved
+right.
 
-Runs without YADE, with the folder ``python`` of the build on PYTHONPATH; ``NONSMOOTH_FUZZ`` is the number of files. Files are read in a process of its own,
-which a crash or a hang would end, and what it prints beside its answers (HDF5's stacks of errors, tracebacks) counts as a failure too.
+Runs without YADE, with the folder ``python`` of the build on PYTHONPATH; ``NONSMOOTH_FUZZ`` is the number of files.
+Files are read in a process of its own, which a crash or a hang would end, and what it prints beside its answers (HDF5's
+stacks of errors, tracebacks) counts as a failure too.
 """
 
 import json

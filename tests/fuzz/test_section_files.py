@@ -1,4 +1,5 @@
-"""Section files broken in many ways: each gives a Section or a SectionError of one line that names the file, within 20 s. Needs no YADE.
+"""Section files broken in many ways: each gives a Section or a SectionError of one line that names the file, within
+20 s. Needs no YADE.
 
 NONSMOOTH_FUZZ_SECTIONS: how many files (default: a share of CI's time); the same ones each time.
 """
@@ -19,7 +20,8 @@ from nonsmooth.section import FOLDER, Section, SectionError, load  # noqa: E402
 TEXT = (FOLDER / "jiufengershan.yaml").read_text(encoding="utf-8")
 DATA = yaml.safe_load(TEXT)
 
-# What people and scripts write by mistake, and what breaks programs. Text that begins with @ goes into the file as it is.
+# What people and scripts write by mistake, and what breaks programs. Text that begins with @ goes into the file as it
+# is.
 HOSTILE = [
     None,
     True,

@@ -1,6 +1,7 @@
 """A change of one token that a person might make by mistake, found by a generator, and which of them are tried.
 
-What a generator may change is chosen by its own text and a seed, so that a change of one file leaves the choice in all others as it was.
+What a generator may change is chosen by its own text and a seed, so that a change of one file leaves the choice in all
+others as it was.
 """
 import ast
 import dataclasses
@@ -19,8 +20,9 @@ KINDS = (COMPARISON, SIGN, INDEX, CONSTANT, NAME, CONDITION)
 
 @dataclass(frozen=True)
 class Change:
-    """Characters ``begin`` to ``end`` of a file become ``new``. ``kind``: one of KINDS; ``scope``: function in which it stands; ``reach``: (begin, end) of the
-    least text that can stand alone, which is what takes a mutant's place: lines in Python, an expression or a statement in C++.
+    """Characters ``begin`` to ``end`` of a file become ``new``. ``kind``: one of KINDS; ``scope``: function in which it
+    stands; ``reach``: (begin, end) of the least text that can stand alone, which is what takes a mutant's place: lines
+    in Python, an expression or a statement in C++.
     """
 
     file: str
@@ -60,7 +62,9 @@ def change(file, text, kind, scope, begin, end, new, reach=None):
 
 
 def chosen(changes, seed):
-    """All of them but for those that compute the same, in the order in which a ``seed`` tries them: kind after kind, so that each has its share."""
+    """All of them but for those that compute the same, in the order in which a ``seed`` tries them: kind after kind, so
+    that each has its share.
+    """
     kinds, seen = {kind: [] for kind in KINDS}, Counter()
     for one in sorted(changes, key=lambda c: (c.file, c.begin, c.kind, c.new)):
         if (one.file, one.before, one.after) in SAME:
@@ -75,7 +79,9 @@ def chosen(changes, seed):
 
 
 def as_mutant(one, root, tests):
-    """The Mutant of a Change; None where it is no Python, or where its reach occurs more than once in C++. In Python lines around it are taken until they occur once."""
+    """The Mutant of a Change; None where it is no Python, or where its reach occurs more than once in C++. In Python
+    lines around it are taken until they occur once.
+    """
     text = (Path(root) / one.file).read_text()
     if one.file.endswith(".py"):
         try:
@@ -98,7 +104,9 @@ def _digest(text):
 
 
 def number(text):
-    """Another number for a literal: twice a float, one more for a whole number, with what C++ writes behind it; None for what is none."""
+    """Another number for a literal: twice a float, one more for a whole number, with what C++ writes behind it; None
+    for what is none.
+    """
     whole = re.fullmatch(r"(\d[\d_]*)([uUlL]*)", text)
     if whole:
         return f"{int(whole[1].replace('_', '')) + 1}{whole[2]}"

@@ -1,7 +1,9 @@
-"""Changes of single tokens in C++, found in its tokens: enough for sources that clang-format has put in order, with spaces around operators of two sides alone.
+"""Changes of single tokens in C++, found in its tokens: enough for sources that clang-format has put in order, with
+spaces around operators of two sides alone.
 
-Each stands in an expression or a statement, its reach, which becomes one branch of a switch (see mutant.py). Not all that looks like an expression is one that can
-be a branch: what the compiler refuses is no mutant, and `random_mutants.py` leaves it out.
+Each stands in an expression or a statement, its reach, which becomes one branch of a switch (see mutant.py). Not all
+that looks like an expression is one that can be a branch: what the compiler refuses is no mutant, and
+`random_mutants.py` leaves it out.
 """
 import re
 
@@ -108,7 +110,9 @@ class _Finder:
         return found
 
     def _reach(self, k):
-        """First and last index of the least expression around a token: all between brackets, commas, assignments and ends of statements; None where there is none."""
+        """First and last index of the least expression around a token: all between brackets, commas, assignments and
+        ends of statements; None where there is none.
+        """
         first = last = k
         while first > 0 and self.words[first - 1] not in (*STOPS, ",", "(", "["):
             first = self.other[first - 1] if self.words[first - 1] in (")", "]") else first - 1

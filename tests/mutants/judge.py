@@ -17,7 +17,9 @@ CAUGHT, CRASHED, TIMEOUT, SURVIVED, BROKEN = "caught", "crashed", "timeout", "SU
 
 @dataclass
 class Verdict:
-    """What became of a mutant: ``by`` the first test that saw it, or what happened; ``noticed``: checks that do not hold, of those that were run."""
+    """What became of a mutant: ``by`` the first test that saw it, or what happened; ``noticed``: checks that do not
+    hold, of those that were run.
+    """
 
     outcome: str
     by: str = ""
@@ -26,7 +28,9 @@ class Verdict:
 
 
 def placed(test):
-    """A test of pytest in YADE, "test_x.py::test_y", with the path of its file below the checkout: no two files have the same name."""
+    """A test of pytest in YADE, "test_x.py::test_y", with the path of its file below the checkout: no two files have
+    the same name.
+    """
     file = test.partition("::")[0]
     return "/".join((*_folders().get(file, ("tests", "yade")), test))
 
@@ -54,7 +58,9 @@ def split(tests):
 
 
 def run(place, kinds, number, limit, *options):
-    """Runs the tests of GoogleTest and of pytest, the quick kinds first: yields (kind, status, output); ``options``: of pytest."""
+    """Runs the tests of GoogleTest and of pytest, the quick kinds first: yields (kind, status, output); ``options``: of
+    pytest.
+    """
     if kinds["gtest"]:
         # ccache may have made the path of a test's source, by which it finds its data, one from the build folder on
         yield "gtest", *place.run(
@@ -96,7 +102,9 @@ def verify(place, names, number=0):
 
 
 def sound(place, tests, checks):
-    """What is wrong with the copy without a mutant: a list of words, empty where all ``tests`` pass; and {check: holds}."""
+    """What is wrong with the copy without a mutant: a list of words, empty where all ``tests`` pass; and {check:
+    holds}.
+    """
     wrong, holds = [], {}
     for kind, status, said in run(place, split(tests), 0, 20 * LIMIT):
         if status != 0:
@@ -110,7 +118,9 @@ def sound(place, tests, checks):
 
 
 def judge(place, mutated, known=None, limit=LIMIT, options=()):
-    """The Verdict on a mutant; ``known``: {check: holds} without one, for mutants that checks should see; ``limit`` [s] for its tests of a kind; ``options``: of pytest."""
+    """The Verdict on a mutant; ``known``: {check: holds} without one, for mutants that checks should see; ``limit`` [s]
+    for its tests of a kind; ``options``: of pytest.
+    """
     began = time.monotonic()
     restore = (lambda: None) if mutated.compiled else place.change(mutated)
     try:
@@ -126,7 +136,8 @@ def _verdict(place, mutated, number, known, limit, options):
     for kind, status, said in run(place, kinds, number, limit, "-x", *options):
         if status is None:
             return Verdict(TIMEOUT, f"{kind}: stopped after {limit:g} s")
-        # 1: a test has failed; of pytest 2 and 3 are errors of collection and of its own, 4 and 5 that there is no such test
+        # 1: a test has failed; of pytest 2 and 3 are errors of collection and of its own, 4 and 5 that there is no such
+        # test
         if status == 1 and (kind == "gtest" or re.search(r"^(FAILED|ERROR) ", said, re.MULTILINE)):
             found = re.search(r"^\[  FAILED  \] (\S+)|^(?:FAILED|ERROR) (.+?)(?: - .*)?$", said, re.MULTILINE)
             return Verdict(CAUGHT, next(filter(None, found.groups()), kind) if found else kind)

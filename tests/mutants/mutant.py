@@ -1,7 +1,8 @@
 """What a mutant is, and how it gets into a copy of the sources.
 
-Those of the C++ (below pkg/) all stand in one copy, which is built once: the environment variable NONSMOOTH_MUTANT, read when the library is loaded, chooses one
-by its number, and without it the copy computes as the original does. Others, one at a time, take the place of the text that they change.
+Those of the C++ (below pkg/) all stand in one copy, which is built once: the environment variable NONSMOOTH_MUTANT,
+read when the library is loaded, chooses one by its number, and without it the copy computes as the original does.
+Others, one at a time, take the place of the text that they change.
 """
 import re
 import zlib
@@ -23,8 +24,8 @@ class TableError(ValueError):
 
 @dataclass(frozen=True)
 class Mutant:
-    """``edits``: (file, text that occurs there once, what takes its place); ``broken``: what is wrong, in words; ``tests``: that should see it, one is enough,
-    of
+    """``edits``: (file, text that occurs there once, what takes its place); ``broken``: what is wrong, in words;
+    ``tests``: that should see it, one is enough, of
 
         test_records.py::test_x     pytest in YADE, in a folder of tests/yade
         plain:test_figures.py, fuzz/test_x.py, bindings/…  pytest without YADE, which is quicker; "plain:" stands for such a folder
@@ -42,7 +43,9 @@ class Mutant:
 
     @property
     def number(self):
-        """Of the switch: the same one whatever stands before it in the table, so that objects need not be built again."""
+        """Of the switch: the same one whatever stands before it in the table, so that objects need not be built
+        again.
+        """
         return zlib.crc32(self.name.encode()) >> 1
 
     @property
@@ -60,7 +63,9 @@ def mutant(name, file, old, new, broken, *tests, slow=False):
 
 
 def place(root, mutated, file, old):
-    """Text of the file below ``root``, and where ``old`` stands in it. Raises TableError where it does not occur once."""
+    """Text of the file below ``root``, and where ``old`` stands in it. Raises TableError where it does not occur
+    once.
+    """
     path = Path(root) / file
     text = path.read_text() if path.exists() else ""
     if text.count(old) != 1:
@@ -71,7 +76,9 @@ def place(root, mutated, file, old):
 
 
 def check_whole(mutated, text, begin, old, new):
-    """Raises TableError where an edit of C++ can stand in no brackets, which would change the copy without a mutant too."""
+    """Raises TableError where an edit of C++ can stand in no brackets, which would change the copy without a mutant
+    too.
+    """
     if old.endswith(";"):
         return
     for part in (old, new):
@@ -89,7 +96,9 @@ def check_whole(mutated, text, begin, old, new):
 
 
 def switched(old, alternatives):
-    """``old``, an expression or a statement of C++, or one of the ``alternatives`` {number: text} where that is chosen."""
+    """``old``, an expression or a statement of C++, or one of the ``alternatives`` {number: text} where that is
+    chosen.
+    """
     if old.endswith(";"):
         return (
             " ".join(f"if ({SYMBOL} == {number}) {{ {new} }} else" for number, new in alternatives.items())

@@ -1,4 +1,6 @@
-"""Which tests concern a file: in Python those that import the module, in C++ those that the table of mutants names for the file or that name what it defines."""
+"""Which tests concern a file: in Python those that import the module, in C++ those that the table of mutants names for
+the file or that name what it defines.
+"""
 import ast
 import re
 from collections import Counter
@@ -31,8 +33,9 @@ class NearTests:
         self._read_tests()
 
     def of(self, file, scope=""):
-        """Names of tests (as a Mutant has them), nearest first: those that name the function ``scope`` and are named after the module or its package, then those of
-        one of the two; of equally near ones those that need no YADE, and small ones; what tries thousands of inputs comes last.
+        """Names of tests (as a Mutant has them), nearest first: those that name the function ``scope`` and are named
+        after the module or its package, then those of one of the two; of equally near ones those that need no YADE, and
+        small ones; what tries thousands of inputs comes last.
         """
         words = [w.strip("_") for w in scope.split(".") if w.strip("_")] or [Path(file).stem]
         near = self._of_python(file, words) if file.endswith(".py") else self._of_cpp(file)
@@ -55,8 +58,10 @@ class NearTests:
 
     # ---- Python
     def _of_python(self, file, names):
-        """Tests that import the module, or call a script that does; where none does those that import a module which does, and so on. Of those further on also the ones
-        that have a word of the module's name, or its folder's, in their own, as test_section of section.checks, and those that say one of the ``names``, where it is no word like any other.
+        """Tests that import the module, or call a script that does; where none does those that import a module which
+        does, and so on. Of those further on also the ones that have a word of the module's name, or its folder's, in
+        their own, as test_section of section.checks, and those that say one of the ``names``, where it is no word like
+        any other.
         """
         modules, seen, found = {_dotted(Path(file).relative_to(PACKAGE))}, set(), []
         words = [*Path(file).stem.split("_"), *Path(file).parent.relative_to(PACKAGE).parts[-1:]]
@@ -117,7 +122,9 @@ class NearTests:
         return {here} if found else set()
 
     def _used(self, tree, within=None):
-        """Modules of the package that a file uses: imported, through the face of a package, or by a string that names one where it imports by name."""
+        """Modules of the package that a file uses: imported, through the face of a package, or by a string that names
+        one where it imports by name.
+        """
         used, aliases, by_name, before = set(), {}, False, {""}
         for node in ast.walk(tree):
             if isinstance(node, ast.JoinedStr) and isinstance(node.values[0], ast.Constant):  # f"figures.{name}"
@@ -187,7 +194,9 @@ class NearTests:
 
     # ---- C++
     def _of_cpp(self, file):
-        """The solver's tests for its own files; else files that the table names for this one, and those that name it more often than others do."""
+        """The solver's tests for its own files; else files that the table names for this one, and those that name it
+        more often than others do.
+        """
         if file.startswith(("pkg/contact/", "pkg/neighbours/")):
             return self._gtests() or []
         stem = Path(file).stem

@@ -3,11 +3,14 @@
 
   tests/mutants/random_mutants.py [BUILD] [--cpp] [--count N] [--seed S] [--only MODULE …] [--plain] [--resume] [--survivors] [--list]
 
-A mutant is one comparison turned, one sign, index, constant or name changed, or one condition dropped, in the Python package outside `verification`, or in pkg/dem
-with --cpp. The files of tests that import the module judge it, the nearest first, until one fails; in C++ those that the table of mutants names for the file, and those
-that name what it defines. What ends a process or does not come to its end is caught too. Results are kept in BUILD/random_mutants as they come.
+A mutant is one comparison turned, one sign, index, constant or name changed, or one condition dropped, in the Python
+package outside `verification`, or in pkg/dem with --cpp. The files of tests that import the module judge it, the
+nearest first, until one fails; in C++ those that the table of mutants names for the file, and those that name what it
+defines. What ends a process or does not come to its end is caught too. Results are kept in BUILD/random_mutants as they
+come.
 
-The status is 1 where less than 92 % are caught. A survivor gets a test of the right answer; one that computes the same gets a line in same.py.
+The status is 1 where less than 92 % are caught. A survivor gets a test of the right answer; one that computes the same
+gets a line in same.py.
 """
 import argparse
 import dataclasses
@@ -39,7 +42,7 @@ GATE = "pkg/dem/LayoutCheck.cpp"  # a library of its own, which YADE loads befor
 
 
 def read_arguments():
-    parser = argparse.ArgumentParser(prog="random_mutants.py", description=__doc__.splitlines()[0])
+    parser = argparse.ArgumentParser(prog="random_mutants.py", description=__doc__.partition("\n\n")[0])
     parser.add_argument(
         "build",
         nargs="?",
@@ -107,8 +110,8 @@ def files_of(parser, args):
 
 
 def pick(args, files, near, again, refused=()):
-    """[(Change, Mutant)] in the order of their trial: those of the digests ``again``, or without any at most as many as are asked for; none of the digests
-    ``refused``."""
+    """[(Change, Mutant)] in the order of their trial: those of the digests ``again``, or without any at most as many as
+    are asked for; none of the digests ``refused``."""
     of = changes_of_cpp if args.cpp else changes_of_python
     picked, spans = [], {}
     for one in chosen([c for f in files for c in of(f, (ROOT / f).read_text())], args.seed):
@@ -250,7 +253,9 @@ def line(found):
 
 
 def kept(path):
-    """What an earlier call has kept: {test: what is known of it}, {digest: row}, and the digests that the compiler refuses."""
+    """What an earlier call has kept: {test: what is known of it}, {digest: row}, and the digests that the compiler
+    refuses.
+    """
     try:
         found = json.loads(path.read_text())
     except FileNotFoundError:

@@ -3,9 +3,10 @@
 
   tests/mutants/run.py [BUILD] [--all | --only NAME …] [--base COMMIT] [--workers N]
 
-BUILD is the build folder of the checkout (default: build); all is done in copies in BUILD/mutants. Without --all some thirty mutants are tried: those of the
-law at large, of files that have changed since --base (default: where the branch left main, on main the commit before), and some of all others. The status is 1
-where a mutant survives that is not among those known to, where the copy without mutants fails, or where a mutant cannot be applied. What became of each stands in
+BUILD is the build folder of the checkout (default: build); all is done in copies in BUILD/mutants. Without --all some
+thirty mutants are tried: those of the law at large, of files that have changed since --base (default: where the branch
+left main, on main the commit before), and some of all others. The status is 1 where a mutant survives that is not among
+those known to, where the copy without mutants fails, or where a mutant cannot be applied. What became of each stands in
 BUILD/mutants/verdicts.json too.
 """
 import argparse
@@ -30,7 +31,7 @@ OUTCOMES = (judging.CAUGHT, judging.CRASHED, judging.TIMEOUT, judging.SURVIVED, 
 
 
 def read_arguments():
-    parser = argparse.ArgumentParser(prog="run.py", description=__doc__.splitlines()[0])
+    parser = argparse.ArgumentParser(prog="run.py", description=__doc__.partition("\n\n")[0])
     parser.add_argument(
         "build",
         nargs="?",
@@ -73,7 +74,9 @@ def changed(base):
 
 
 def quick(files):
-    """The mutants of the quick part: those that checks judge, then those of changed ``files`` or of tests that have changed, then some of all."""
+    """The mutants of the quick part: those that checks judge, then those of changed ``files`` or of tests that have
+    changed, then some of all.
+    """
     dice = random.Random(1)  # the same ones for the same change
     chosen = [m for m in MUTANTS if any(t.startswith("check:") for t in m.tests)]
     fast = [m for m in MUTANTS if not m.slow and m not in chosen]

@@ -1,9 +1,11 @@
-"""Runs pytest for one mutant after the other in children of a process that has imported what takes time, YADE included where it runs in YADE.
+"""Runs pytest for one mutant after the other in children of a process that has imported what takes time, YADE included
+where it runs in YADE.
 
   scripts/yade-nonsmooth tests/mutants/server.py IN OUT --threads N      or python3 instead of the launcher
 
-IN and OUT are numbers of open pipes. A line in, {"arguments", "environment", "number", "output", "limit"}, all of them JSON, gives a line out: the status of
-pytest, null where the child was stopped after ``limit`` seconds. Nothing of the package under test stays imported here, so a child reads it anew.
+IN and OUT are numbers of open pipes. A line in, {"arguments", "environment", "number", "output", "limit"}, all of them
+JSON, gives a line out: the status of pytest, null where the child was stopped after ``limit`` seconds. Nothing of the
+package under test stays imported here, so a child reads it anew.
 """
 import atexit
 import contextlib
@@ -72,7 +74,9 @@ def serve(job):
 
 
 def forget_background():
-    """Takes back what the engines had yade.nonsmooth.world.background do when YADE loaded them, and forgets the package. Returns the arguments of its watch(), None without YADE."""
+    """Takes back what the engines had yade.nonsmooth.world.background do when YADE loaded them, and forgets the
+    package. Returns the arguments of its watch(), None without YADE.
+    """
     found = sys.modules.get("yade.nonsmooth.world.background")
     if found is None:
         return None

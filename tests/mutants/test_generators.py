@@ -1,4 +1,6 @@
-"""The generators of random mutants: what they change in made-up sources, what they leave alone, and whom they ask. No YADE, no files but made-up ones."""
+"""The generators of random mutants: what they change in made-up sources, what they leave alone, and whom they ask. No
+YADE, no files but made-up ones.
+"""
 import ast
 import os
 from textwrap import dedent
@@ -322,7 +324,9 @@ def test_every_cpp_change_can_be_a_branch_of_a_switch():
 
 
 def test_a_copy_is_built_again_where_it_changed_also_back(tmp_path, monkeypatch):
-    """Files' times are what ninja goes by: one that loses its mutants is the checkout's, which is older than what was built with them."""
+    """Files' times are what ninja goes by: one that loses its mutants is the checkout's, which is older than what was
+    built with them.
+    """
     checkout, copy = tmp_path / "checkout" / "pkg" / "contact", tmp_path / "copy"
     checkout.mkdir(parents=True)
     for name in ("a.cpp", "b.cpp"):
@@ -343,7 +347,9 @@ def test_a_copy_is_built_again_where_it_changed_also_back(tmp_path, monkeypatch)
 # ---- who judges
 @pytest.fixture
 def checkout(tmp_path, monkeypatch):
-    """A made-up checkout: modules a, b (which imports a), c, the package sub with a face; a script; tests of each kind."""
+    """A made-up checkout: modules a, b (which imports a), c, the package sub with a face; a script; tests of each
+    kind.
+    """
     for name, text in {
         "py/nonsmooth/__init__.py": "",
         "py/nonsmooth/a.py": "def weigh(x):\n    return x\n",
@@ -378,7 +384,8 @@ def checkout(tmp_path, monkeypatch):
 
 
 def test_who_imports_a_module_judges_it_and_the_nearest_first(checkout):
-    # named after it and naming the function, without YADE; then one of the two; what tries thousands of inputs last. conftest.py is nobody's own.
+    # named after it and naming the function, without YADE; then one of the two; what tries thousands of inputs last.
+    # conftest.py is nobody's own.
     assert checkout.of("py/nonsmooth/a.py", "weigh") == [
         "plain:test_a.py",
         "bindings/test_module.py",

@@ -1,4 +1,6 @@
-"""Where mutants live: copies of the checkout, the build of the one that holds those of the C++, and places to run tests in."""
+"""Where mutants live: copies of the checkout, the build of the one that holds those of the C++, and places to run tests
+in.
+"""
 import contextlib
 import json
 import os
@@ -38,8 +40,8 @@ def copy_sources(target):
 
 
 def mutated_sources(target, mutants):
-    """The copy with all mutants of the C++; a file that did not change keeps its time, so that only what changed is built again, and one that did has a new one, also
-    where it is the checkout's again."""
+    """The copy with all mutants of the C++; a file that did not change keeps its time, so that only what changed is
+    built again, and one that did has a new one, also where it is the checkout's again."""
     fresh = target.with_name(target.name + ".new")
     shutil.rmtree(fresh, ignore_errors=True)
     copy_sources(fresh)
@@ -89,7 +91,9 @@ def build(source, folder, main_build, targets, *ninja):
 
 
 def share(places, items, work):
-    """Calls ``work(place, item)`` for all items, as many at a time as there are places; yields (item, what it returned) in their order."""
+    """Calls ``work(place, item)`` for all items, as many at a time as there are places; yields (item, what it returned)
+    in their order.
+    """
     free = Queue()
     for one in places:
         free.put(one)
@@ -170,8 +174,8 @@ class Place:
         os.utime(path, (later, later))
 
     def run(self, command, number=0, limit=600.0, folder=None):
-        """Runs a command with the mutant of a number, in the checkout or another ``folder``; returns (status, output), the status None where it was stopped
-        after ``limit`` seconds."""
+        """Runs a command with the mutant of a number, in the checkout or another ``folder``; returns (status, output),
+        the status None where it was stopped after ``limit`` seconds."""
         with self._environment(number) as environment:
             process = subprocess.Popen(
                 [str(c) for c in command],
@@ -215,7 +219,9 @@ class Place:
 
     @contextlib.contextmanager
     def _environment(self, number):
-        """What a mutant's tests find: a cache and temporary files of their own, since nothing that one mutant has made may be taken for another's."""
+        """What a mutant's tests find: a cache and temporary files of their own, since nothing that one mutant has made
+        may be taken for another's.
+        """
         with tempfile.TemporaryDirectory(dir=self.folder) as work:
             yield {
                 "NONSMOOTH_BUILD": str(self.build),

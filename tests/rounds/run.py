@@ -1,12 +1,14 @@
 #!/usr/bin/env python3
-"""Does anything in the suite pass by chance? Runs the tests that start a process, or send one a signal, many times on a busy machine.
+"""Does anything in the suite pass by chance? Runs the tests that start a process, or send one a signal, many times on a
+busy machine.
 
   tests/rounds/run.py [BUILD] [--rounds N] [--workers N] [--only TEST …] [--forget]
 
-The first command runs all tests once and writes down which of them start a process or send a signal (BUILD/rounds/tests.csv: see tests/yade/started.py). Each
-round runs all of those; --workers rounds go side by side, one more than the machine has cores, so that each waits for others at moments of nobody's choice. What
-came of each round stands in BUILD/rounds/rounds.csv, what a round that failed has said in its log beside it. The rounds of a commit are counted together: the
-command can be stopped, and given again. The status is 1 where a round has failed.
+The first command runs all tests once and writes down which of them start a process or send a signal
+(BUILD/rounds/tests.csv: see tests/yade/started.py). Each round runs all of those; --workers rounds go side by side, one
+more than the machine has cores, so that each waits for others at moments of nobody's choice. What came of each round
+stands in BUILD/rounds/rounds.csv, what a round that failed has said in its log beside it. The rounds of a commit are
+counted together: the command can be stopped, and given again. The status is 1 where a round has failed.
 """
 import argparse
 import contextlib
@@ -31,7 +33,7 @@ COLUMNS = ("commit", "round", "tests", "seconds", "status", "failed")
 
 
 def read_arguments():
-    parser = argparse.ArgumentParser(prog="run.py", description=__doc__.splitlines()[0])
+    parser = argparse.ArgumentParser(prog="run.py", description=__doc__.partition("\n\n")[0])
     parser.add_argument(
         "build",
         nargs="?",
@@ -103,7 +105,9 @@ def pool(workers):
 
 
 def tests_of(folder, build, workers):
-    """Ids of the tests that start a process or send a signal, file by file; found by a run of all tests where that has not been done."""
+    """Ids of the tests that start a process or send a signal, file by file; found by a run of all tests where that has
+    not been done.
+    """
     file = folder / "tests.csv"
     if not file.exists():
         print("which tests start a process: all run once …", flush=True)

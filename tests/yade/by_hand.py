@@ -238,7 +238,9 @@ class Known:
         return self.since_settled(self.steps.losses[:, 3])
 
     def parabolas(self):
-        """What each step's balance misses, −h/2 M g·ΔV: it moves disks with the velocity at its end, not with the mean one."""
+        """What each step's balance misses, −h/2 M g·ΔV: it moves disks with the velocity at its end, not with the mean
+        one.
+        """
         gain = [(self.watch.mass * (self.after[v] - self.before[v])).sum(1) for v in ("vx", "vy")]
         return -0.5 * self.steps.dt * (gain[0] * self.steps.gravity[:, 0] + gain[1] * self.steps.gravity[:, 1])
 

@@ -21,9 +21,11 @@ def empty():
 
 @pytest.fixture
 def in_process(monkeypatch, capsys):
-    """Calls a command in this process: ``in_process("column.py", "--disks", 50)``, a namespace of its ``status``, ``out`` and ``err``.
+    """Calls a command in this process: ``in_process("column.py", "--disks", 50)``, a namespace of its ``status``,
+    ``out`` and ``err``.
 
-    It costs no start of YADE. What a command does to the process is taken back: its arguments, and Ctrl-C that it ignores once it ends.
+    It costs no start of YADE. What a command does to the process is taken back: its arguments, and Ctrl-C that it
+    ignores once it ends.
     """
 
     def call(name, *words):
@@ -47,7 +49,9 @@ def in_process(monkeypatch, capsys):
 
 @pytest.fixture
 def cases_here(monkeypatch):
-    """Cases of checks are called in this process, one after the other, and not in processes of their own, which test_laboratory and others are for."""
+    """Cases of checks are called in this process, one after the other, and not in processes of their own, which
+    test_laboratory and others are for.
+    """
     from yade.nonsmooth.judges.verification import cases
 
     known = {}

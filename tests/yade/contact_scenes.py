@@ -115,7 +115,9 @@ def momenta(ids):
 
 
 def bits():
-    """All bodies and contacts to the last bit, contacts in the order of ids (YADE's own order depends on the number of threads)."""
+    """All bodies and contacts to the last bit, contacts in the order of ids (YADE's own order depends on the number of
+    threads).
+    """
     bodies, rows = engine().bodyTable(), np.frombuffer(engine().contactTable()).reshape(-1, 12)
     order = np.lexsort((rows[:, :2].max(axis=1), rows[:, :2].min(axis=1)))
     return bodies, rows[order].tobytes()

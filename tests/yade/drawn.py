@@ -1,4 +1,5 @@
-"""What a figure shows, read from its artists in data units: lines, legends, texts, arrows, disks, bars, bands and levels.
+"""What a figure shows, read from its artists in data units: lines, legends, texts, arrows, disks, bars, bands and
+levels.
 
 Colours are told as "#rrggbb". No picture is drawn.
 """
@@ -10,7 +11,9 @@ from matplotlib.patches import Patch
 
 
 def keep(monkeypatch, style):
-    """Figures that are saved from now on, by the name of their file: a dict; an empty file stands for each. ``style``: the module nonsmooth.figures.style."""
+    """Figures that are saved from now on, by the name of their file: a dict; an empty file stands for each. ``style``:
+    the module nonsmooth.figures.style.
+    """
     kept = {}
 
     def save(fig, path=None, pdf=False, dpi=170):

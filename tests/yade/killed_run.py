@@ -1,7 +1,8 @@
-"""A slope with a checkpoint at every row, which kills itself: scripts/yade-nonsmooth tests/yade/killed_run.py SECTION DISKS OUT END LOOK [--resume].
+"""A slope with a checkpoint at every row, which kills itself: scripts/yade-nonsmooth tests/yade/killed_run.py SECTION
+DISKS OUT END LOOK [--resume].
 
-LOOK: number of the access to a file below OUT (opening, renaming, removing, …) before which the process is killed; 0: never, and the file OUT.looks then tells
-how many there were.
+LOOK: number of the access to a file below OUT (opening, renaming, removing, …) before which the process is killed; 0:
+never, and the file OUT.looks then tells how many there were.
 """
 import os
 import signal

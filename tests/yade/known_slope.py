@@ -1,7 +1,8 @@
-"""A made-up run of the shipped section whose every answer is known: straight lines in time, so that a mean over a second is a value half a second before.
+"""A made-up run of the shipped section whose every answer is known: straight lines in time, so that a mean over a
+second is a value half a second before.
 
-Rows are 0.1 s apart, from 0.1 s to 100 s: settled at 5 s, t0 at 10 s, moving at 30.5 s, D_c reached at 35 s, at rest from 85 s on. What a summary must not count,
-such as the settling, has values that would show.
+Rows are 0.1 s apart, from 0.1 s to 100 s: settled at 5 s, t0 at 10 s, moving at 30.5 s, D_c reached at 35 s, at rest
+from 85 s on. What a summary must not count, such as the settling, has values that would show.
 """
 
 import dataclasses
@@ -91,8 +92,9 @@ def series():
 
 
 def pile(columns, section, bottom, heights, stray=()):
-    """Arrays for write_snapshot: stacks of eleven disks of 2 m, one stack a bin of the profile, from ``bottom`` up to ``heights`` above the lowest wall in the middle of
-    their bins; the first stack at x = ``columns``. ``stray``: (x, y) of single disks."""
+    """Arrays for write_snapshot: stacks of eleven disks of 2 m, one stack a bin of the profile, from ``bottom`` up to
+    ``heights`` above the lowest wall in the middle of their bins; the first stack at x = ``columns``. ``stray``: (x, y)
+    of single disks."""
     places = []
     for k, height in enumerate(heights):
         x = columns + BIN * k
@@ -130,7 +132,9 @@ def begin():
 
 
 def end():
-    """Forty stacks on the valley floor, 30 m high but for one of 36 m: 14,472 m²; and a disk in the air over the last."""
+    """Forty stacks on the valley floor, 30 m high but for one of 36 m: 14,472 m²; and a disk in the air over the
+    last.
+    """
     return pile(480.0, SHIPPED, floor, [30.0] * 12 + [36.0] + [30.0] * 27, stray=[(990.0, 300.0)])
 
 

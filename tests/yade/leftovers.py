@@ -4,7 +4,9 @@ from pathlib import Path
 
 
 def plant(folder, *names):
-    """Leaves, for each file, one that was cut off in the middle of the writing, and one that was whole but not yet renamed."""
+    """Leaves, for each file, one that was cut off in the middle of the writing, and one that was whole but not yet
+    renamed.
+    """
     for name in names:
         path = Path(folder, name)
         content = path.read_bytes() if path.is_file() else b"PK\x03\x04 what a file begins with, and goes on with"

@@ -1,4 +1,6 @@
-"""Made-up rows of readings, as laboratory.readings.run returns them: of the paper's own numbers, but for what is changed."""
+"""Made-up rows of readings, as laboratory.readings.run returns them: of the paper's own numbers, but for what is
+changed.
+"""
 
 import math
 
@@ -9,7 +11,9 @@ reading_numbers = synthetic.load("studies.paper.reading_numbers")
 
 
 def made_up(name, platens, strain_peak=((0.01,) * 3,) * 3, disks=2000, bands=2, **changes):
-    """A row with the numbers of the paper and ``changes``. ``strain_peak``: [[under 4, 8, 16 MPa], one list a sample]; ``disks``, ``bands``: of each of its samples."""
+    """A row with the numbers of the paper and ``changes``. ``strain_peak``: [[under 4, 8, 16 MPa], one list a sample];
+    ``disks``, ``bands``: of each of its samples.
+    """
     row = {name: wanted for name, (wanted, _) in reading_numbers.PAPER.items()}
     row |= {f"{number}_95": 1.0 for number in reading_numbers.SHOWN}
     row |= {"name": name, "label": name, "platens": platens, "folder": f"samples/{name}/{platens}"}

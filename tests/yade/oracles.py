@@ -1,4 +1,6 @@
-"""Other people's programs that tests ask and that may be missing: the last line of the run then says what was not held, and in CI it is an error."""
+"""Other people's programs that tests ask and that may be missing: the last line of the run then says what was not held,
+and in CI it is an error.
+"""
 import os
 import shutil
 
@@ -17,7 +19,9 @@ class _LastLine:
 
 
 def program(name, held):
-    """Path of a program. Where it is not installed, the tests that want it are skipped; they fail where NONSMOOTH_CI is set. ``held``: what is not held without it."""
+    """Path of a program. Where it is not installed, the tests that want it are skipped; they fail where NONSMOOTH_CI is
+    set. ``held``: what is not held without it.
+    """
     path = shutil.which(name)
     if path is None:
         if os.environ.get("NONSMOOTH_CI"):
@@ -27,7 +31,9 @@ def program(name, held):
 
 
 def siconos(config):
-    """Path of siconos_solve. Where it is not built, the tests that want it are skipped; they fail where NONSMOOTH_CI is set."""
+    """Path of siconos_solve. Where it is not built, the tests that want it are skipped; they fail where NONSMOOTH_CI is
+    set.
+    """
     try:
         return siconos_solve.program()
     except siconos_solve.OracleError as missing:

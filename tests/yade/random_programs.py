@@ -1,11 +1,12 @@
-"""Random programs: small scenes that are changed between and within steps, run in every way in which a scene can be run. All that can be read in the end, and at
-each change on the way, is the same to the last bit.
+"""Random programs: small scenes that are changed between and within steps, run in every way in which a scene can be
+run. All that can be read in the end, and at each change on the way, is the same to the last bit.
 
     scripts/yade-nonsmooth tests/yade/random_programs.py --programs 500          the first 500
     scripts/yade-nonsmooth tests/yade/random_programs.py --first 137 -v          one of them, with what it does
 
-The ways: ``O.step()`` (stepped), advance() that shows all, nothing, or single bodies (seen, unseen, alone), a run in the background beside a thread that asks for
-tables and views (beside), and YADE's own collider, loop and integrator with the same solver (plain). A program that a way cannot run is left out there and counted.
+The ways: ``O.step()`` (stepped), advance() that shows all, nothing, or single bodies (seen, unseen, alone), a run in
+the background beside a thread that asks for tables and views (beside), and YADE's own collider, loop and integrator
+with the same solver (plain). A program that a way cannot run is left out there and counted.
 """
 import argparse
 import math
@@ -147,7 +148,9 @@ KINDS = {}  # by name: the function, what it looks at, and where it may be
 
 
 def kind(looks="all", within=True, between=True, ways=WAYS):
-    """``looks``: "all", "none", or "bodies", those that the function is given; ``ways``: those in which YADE itself can do it."""
+    """``looks``: "all", "none", or "bodies", those that the function is given; ``ways``: those in which YADE itself can
+    do it.
+    """
 
     def note(function):
         KINDS[function.__name__] = dict(function=function, looks=looks, within=within, between=between, ways=ways)
@@ -713,7 +716,9 @@ class Program:
         return rows
 
     def go(self, way, steps, looks, ids):
-        """Makes steps; an exception ends the one that it came from, which is then made again. Returns what was raised."""
+        """Makes steps; an exception ends the one that it came from, which is then made again. Returns what was
+        raised.
+        """
         said, shown = [], False
         while steps > 0:
             before = O.iter
@@ -739,7 +744,9 @@ class Program:
 
 
 def own_engines():
-    """YADE's own engines, which sort in every step: what a script moves is found at once. Boxes of disks are so large that walls are found as early as by ours."""
+    """YADE's own engines, which sort in every step: what a script moves is found at once. Boxes of disks are so large
+    that walls are found as early as by ours.
+    """
     new = []
     for e in O.engines:
         if isinstance(e, PlanarGridCollider):

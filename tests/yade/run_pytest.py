@@ -1,9 +1,11 @@
-"""Runs pytest inside YADE: scripts/yade-nonsmooth tests/yade/run_pytest.py [--threads N] [--share DIR] [--started FILE] [PYTEST ARGUMENTS].
+"""Runs pytest inside YADE: scripts/yade-nonsmooth tests/yade/run_pytest.py [--threads N] [--share DIR] [--started FILE]
+[PYTEST ARGUMENTS].
 
 --threads N: as the launcher takes it; programs that tests start have as many unless the test says otherwise.
---share DIR: several of these commands at a time share the tests, file by file, by what they write into DIR, which is empty before the first of them. Give each
-one thread: a thread that waits for another one at each loop's end, while others' have the cores, makes steps of small scenes forty times longer.
---started FILE: writes down which tests started a process or sent a signal: see started.py.
+--share DIR: several of these commands at a time share the tests, file by file, by what they write into DIR, which is
+empty before the first of them. Give each one thread: a thread that waits for another one at each loop's end, while
+others' have the cores, makes steps of small scenes forty times longer. --started FILE: writes down which tests started
+a process or sent a signal: see started.py.
 """
 import os
 import sys

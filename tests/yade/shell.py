@@ -13,12 +13,15 @@ BUILD = PREFIX.parent
 
 
 def environment(**changes):
-    """A user's, with the build under test; commands that are not told how many threads to take have as many as this process."""
+    """A user's, with the build under test; commands that are not told how many threads to take have as many as this
+    process.
+    """
     return {**os.environ, "NONSMOOTH_BUILD": str(BUILD), **changes}
 
 
 def run(program, *arguments, limit=600, cwd=None, given=None, **changes):
-    """Runs a program, one of scripts/ by its name, to its end; ``given``: by standard input; ``changes``: of the environment; ``limit`` [s].
+    """Runs a program, one of scripts/ by its name, to its end; ``given``: by standard input; ``changes``: of the
+    environment; ``limit`` [s].
 
     Returns a subprocess.CompletedProcess with text."""
     if (SCRIPTS / program).exists():
@@ -35,7 +38,9 @@ def run(program, *arguments, limit=600, cwd=None, given=None, **changes):
 
 
 def start(name, *arguments, limit=None, **changes):
-    """A command that goes on beside the test; ``limit``: of the size of its files [bytes]; ``changes``: of the environment."""
+    """A command that goes on beside the test; ``limit``: of the size of its files [bytes]; ``changes``: of the
+    environment.
+    """
 
     def prepare():
         signal.signal(signal.SIGINT, signal.SIG_DFL)  # tests in the background ignore it, and so would what they start

@@ -20,7 +20,9 @@ STRONG = {"friction: 0.3\n": "friction: 0.8\n", "tensile_strength: 100.0e3": "te
 
 
 def write_quick(folder, strong=False):
-    """Writes the section file into a folder; returns its path. ``strong``: of a rock that stands with some hundred disks."""
+    """Writes the section file into a folder; returns its path. ``strong``: of a rock that stands with some hundred
+    disks.
+    """
     text = SHIPPED.read_text()
     for old, new in QUICK.items():
         assert text.count(old) == 1, old

@@ -4,7 +4,8 @@ import sys
 
 import pytest
 
-# what subprocess, os, signal and multiprocessing tell of themselves; ctypes' calls of the machine's own functions are not seen
+# what subprocess, os, signal and multiprocessing tell of themselves; ctypes' calls of the machine's own functions are
+# not seen
 EVENTS = (
     "subprocess.Popen",
     "os.fork",
@@ -19,7 +20,8 @@ EVENTS = (
 
 
 class Started:
-    """Writes into FILE a row for each test that starts a process or sends a signal: its id, the seconds that it and its fixtures took, and the events.
+    """Writes into FILE a row for each test that starts a process or sends a signal: its id, the seconds that it and its
+    fixtures took, and the events.
 
     A fixture of a file or of the session counts for the test that needs it first.
     """

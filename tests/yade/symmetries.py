@@ -1,6 +1,8 @@
-"""The same scene in another frame: mirrored, turned, shifted, moving, in other units, with other ids; and its course, taken back to where the test thinks.
+"""The same scene in another frame: mirrored, turned, shifted, moving, in other units, with other ids; and its course,
+taken back to where the test thinks.
 
-A World is plain data in one frame. `play` builds it in a Frame, runs it, and returns the Course as the first frame sees it, so that a test reads
+A World is plain data in one frame. `play` builds it in a Frame, runs it, and returns the Course as the first frame sees
+it, so that a test reads
     assert_same(play(world, Frame(turn=0.7)), play(world), 1e-11)
 """
 from dataclasses import dataclass, field, replace
@@ -28,7 +30,9 @@ WATER = {"unitWeight": "weight", "heights": "length", "times": "time", "releaseD
 
 @dataclass(frozen=True)
 class Frame:
-    """x' = length (R (M x) + shift + speed t): mirrored at the y axis by M, turned by R [rad]; units of length, time and density are factors."""
+    """x' = length (R (M x) + shift + speed t): mirrored at the y axis by M, turned by R [rad]; units of length, time
+    and density are factors.
+    """
 
     turn: float = 0.0
     mirrored: bool = False
@@ -118,9 +122,10 @@ class Line:
 
 @dataclass(frozen=True)
 class World:
-    """``stuffs``: attributes of an NscdMat by name, of a SlipWeakeningMat where it has a criticalSlip; ``bond``: step after which bonds are made;
-    ``turns``: {step: gravity from then on}; ``options``: of contact_scenes.begin; ``water``, ``stepper``: attributes of these engines; ``order``: disks
-    in the order of their ids; ``walls_last``: the walls have the highest ids."""
+    """``stuffs``: attributes of an NscdMat by name, of a SlipWeakeningMat where it has a criticalSlip; ``bond``: step
+    after which bonds are made; ``turns``: {step: gravity from then on}; ``options``: of contact_scenes.begin;
+    ``water``, ``stepper``: attributes of these engines; ``order``: disks in the order of their ids; ``walls_last``: the
+    walls have the highest ids."""
 
     disks: tuple
     walls: tuple
@@ -138,7 +143,9 @@ class World:
 
 
 class Course(dict):
-    """Arrays by name, the first axis along the samples; ``length`` [m], ``speed`` [m/s], ``mass`` [kg/m] and ``step`` [s]: the scales of this world."""
+    """Arrays by name, the first axis along the samples; ``length`` [m], ``speed`` [m/s], ``mass`` [kg/m] and ``step``
+    [s]: the scales of this world.
+    """
 
 
 def _build(world, frame):
@@ -255,7 +262,9 @@ def _sample(world, frame, ids, pieces):
 
 
 def play(world, frame=HERE, prepared=lambda ids: None, halfway=lambda: None):
-    """The Course of a world that is built and run in a frame, as HERE sees it; ``prepared``: called with the disks' ids once contacts are known, after a step."""
+    """The Course of a world that is built and run in a frame, as HERE sees it; ``prepared``: called with the disks' ids
+    once contacts are known, after a step.
+    """
     O.reset()
     ids, pieces = _build(world, frame)
     _engines(world, frame)
@@ -285,8 +294,9 @@ def play(world, frame=HERE, prepared=lambda ids: None, halfway=lambda: None):
 
 
 def differences(found, expected):
-    """{name: largest difference} of two courses, in the scales of ``expected``: ℓ, the greatest speed, what stops a disk in a step, a disk's energy; counts as they are. Overlaps
-    are what a step left over: they agree a hundred times less than places do."""
+    """{name: largest difference} of two courses, in the scales of ``expected``: ℓ, the greatest speed, what stops a
+    disk in a step, a disk's energy; counts as they are. Overlaps are what a step left over: they agree a hundred times
+    less than places do."""
     s = expected
     scales = {
         "place": s.length,
@@ -309,7 +319,9 @@ def differences(found, expected):
 
 
 def assert_same(found, expected, tolerance, **others):
-    """Two courses agree to ``tolerance`` in the scales of `differences`; ``others``: other tolerances by name, with _ for a blank, None for what may differ."""
+    """Two courses agree to ``tolerance`` in the scales of `differences`; ``others``: other tolerances by name, with _
+    for a blank, None for what may differ.
+    """
     others = {name.replace("_", " "): value for name, value in others.items()}
     far = {
         name: value
@@ -363,7 +375,8 @@ def shuffled(world, seed=1):
     return replace(world, order=tuple(np.random.default_rng(seed).permutation(len(world.disks)).tolist()))
 
 
-# Frames in which any world has the same course. Far away a place is known to 2^-52 of the distance only; a test says what that does to it.
+# Frames in which any world has the same course. Far away a place is known to 2^-52 of the distance only; a test says
+# what that does to it.
 FRAMES = {
     "mirror": Frame(mirrored=True),
     "quarter turn": Frame(turn=0.5 * np.pi),

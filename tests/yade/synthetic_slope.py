@@ -158,7 +158,8 @@ def snapshot_arrays(count=3000, time=0.0, contacts=True, seed=1):
 
 
 def few(x, y, contacts=(), **changes):
-    """A Snapshot of disks given one by one, at time 0 without water: of radius 1 m, in layer 0, dry and at rest unless ``changes`` say so.
+    """A Snapshot of disks given one by one, at time 0 without water: of radius 1 m, in layer 0, dry and at rest unless
+    ``changes`` say so.
 
     ``contacts``: (i, j, normal force [N/m]), or for wall number k (i, -1 - k, normal force, x, y of the point).
     """

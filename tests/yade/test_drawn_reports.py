@@ -1,4 +1,6 @@
-"""Which data a run, a campaign, a heap and a comparison hand to their figures, which are kept instead of being written and have tests of their own."""
+"""Which data a run, a campaign, a heap and a comparison hand to their figures, which are kept instead of being written
+and have tests of their own.
+"""
 
 import dataclasses
 import types
@@ -40,7 +42,9 @@ TIMES = {"t0": 10.0, "t1": 42.1, "t2": 51.0, "t3": 60.0, "t4": 71.0, "t5": None}
 
 @pytest.fixture
 def run(tmp_path, monkeypatch):
-    """A run of 100 s whose rows, one a second, settle until 10 s, with a snapshot every ten seconds, and one of t1; video and ParaView files are kept as their arguments."""
+    """A run of 100 s whose rows, one a second, settle until 10 s, with a snapshot every ten seconds, and one of t1;
+    video and ParaView files are kept as their arguments.
+    """
     rows = {name: np.zeros(101) for name in records.COLUMNS} | {
         "step": np.arange(101) * 100,
         "time_s": np.where(np.arange(101) == 42, 42.1, np.arange(101.0)),
@@ -91,7 +95,8 @@ def test_a_run_hands_its_records_to_its_figures(kept, run):
         "avalanche.pvd",
         "avalanche.mp4",
     ]
-    # t0 has a file of its own, t1 its exact snapshot, the others take the nearest; t5 did not come, so that the end is shown
+    # t0 has a file of its own, t1 its exact snapshot, the others take the nearest; t5 did not come, so that the end is
+    # shown
     at = [[t.get_text() for t in ax.texts if t.get_text().endswith(" s")][0] for ax in kept["snapshots.png"].axes]
     assert at == [
         "$t_{0}$ = 10.5 s",
@@ -334,7 +339,9 @@ def outcome(case, k):
 
 
 def compared(source, moving):
-    """Two seeds and two stiffnesses, with runs for damping and fragile bonds: the plan, and {case: outcome} with k by the case."""
+    """Two seeds and two stiffnesses, with runs for damping and fragile bonds: the plan, and {case: outcome} with k by
+    the case.
+    """
     plan = cases.plan(source, 100, [1, 2], [1e8, 1e9], damping_moving=moving, bonds_run=True, fragile=False)
     return plan, {case: outcome(case, k) for k, case in enumerate(plan.cases)}
 

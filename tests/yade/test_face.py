@@ -223,7 +223,9 @@ PURE = (
 
 
 def imported_with(module):
-    """[(module of the package, package of others that it imports)], for ``module`` and all that is imported with it; read from the sources."""
+    """[(module of the package, package of others that it imports)], for ``module`` and all that is imported with it;
+    read from the sources.
+    """
     package, seen, waiting, found = ROOT / "py" / "nonsmooth", set(), [module], []
     while waiting:
         name = waiting.pop()

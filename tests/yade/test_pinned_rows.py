@@ -1,7 +1,9 @@
-"""The bits of three scenes: SHA-256 of the first 200 rows of a slope, of a biaxial test and of a column, without the wall time.
+"""The bits of three scenes: SHA-256 of the first 200 rows of a slope, of a biaxial test and of a column, without the
+wall time.
 
-They are the same on Debian 12 and 13, with any processor and any number of threads. A commit that changes one says in its message that bits change, and why; a rebuilding
-changes none. To see what changed, lay the series of both commits side by side: the folder is in the failure's message.
+They are the same on Debian 12 and 13, with any processor and any number of threads. A commit that changes one says in
+its message that bits change, and why; a rebuilding changes none. To see what changed, lay the series of both commits
+side by side: the folder is in the failure's message.
 """
 import hashlib
 from dataclasses import asdict
@@ -34,7 +36,9 @@ def first_rows(path):
 
 
 def slope_series(folder):
-    """Gravity grows, the slope rests, the water rises; weak disks on the plane, so that bonds break and disks get going."""
+    """Gravity grows, the slope rests, the water rises; weak disks on the plane, so that bonds break and disks get
+    going.
+    """
     s = section.load(str(write_quick(folder))).with_disks(300)
     experiment.Experiment(slope.build(s, slope_packing.of(s)), folder).run(end=0.1 * ROWS + 0.05)
     return folder / "series.csv"

@@ -141,7 +141,9 @@ def test_the_package_alone_loads_no_large_library():
 
 
 def test_the_face_shows_each_module_where_it_stands():
-    """``from nonsmooth import section`` and ``import nonsmooth.section`` give the module of its room, not a second one; others' attributes stay."""
+    """``from nonsmooth import section`` and ``import nonsmooth.section`` give the module of its room, not a second one;
+    others' attributes stay.
+    """
     code = "\n".join(
         [
             "import importlib, nonsmooth",

@@ -1,4 +1,6 @@
-"""Public functions that are given a value of another kind than they take: one line with the argument, the value and what would do, before anything is done."""
+"""Public functions that are given a value of another kind than they take: one line with the argument, the value and
+what would do, before anything is done.
+"""
 
 import math
 

@@ -1,4 +1,5 @@
-"""The small slope run from its first step to its rest while every step is written down: what its records are to be recomputed from.
+"""The small slope run from its first step to its rest while every step is written down: what its records are to be
+recomputed from.
 
 `Watch` holds plain arrays, so tests read it after the scene has gone. SI units, per metre of thickness.
 """
@@ -24,7 +25,9 @@ def sorted_contacts(solver):
 
 
 def solved(solver, bodies, first, path):
-    """``bodies`` (x, y, vx, vy, omega; the first one of id ``first``) with the velocities that the step's contact problem was solved for; ``path``: of a file to write it to."""
+    """``bodies`` (x, y, vx, vy, omega; the first one of id ``first``) with the velocities that the step's contact
+    problem was solved for; ``path``: of a file to write it to.
+    """
     solver.dump(str(path))
     return np.r_[bodies[:2], contact.load(str(path)).velocity[first : first + bodies.shape[1]].T]
 
@@ -32,7 +35,8 @@ def solved(solver, bodies, first, path):
 class Work:
     """What contacts did in each step, by hand: impulses times the mean of the relative velocities before and after it.
 
-    Tension in a bond which opens neither in a step nor in the one before dissipates nothing: it is an error of the step.
+    Tension in a bond which opens neither in a step nor in the one before dissipates nothing: it is an error of the
+    step.
     """
 
     def __init__(self, first, r):
@@ -41,10 +45,11 @@ class Work:
         self._open = set()  # pairs that opened in the last step
 
     def of(self, table, before, after, h):
-        """Losses of a step [J] in the order of records.LOSSES, the work of tension in bonds that hold [J], and the contacts' relative velocities at its end (3, contacts).
+        """Losses of a step [J] in the order of records.LOSSES, the work of tension in bonds that hold [J], and the
+        contacts' relative velocities at its end (3, contacts).
 
-        ``table``: :func:`sorted_contacts` after the step; ``before``, ``after``: x, y, vx, vy, omega of the disks. Bodies that turn as one have two velocities at a step's end: solved, and turned;
-        the sums are of the first.
+        ``table``: :func:`sorted_contacts` after the step; ``before``, ``after``: x, y, vx, vy, omega of the disks.
+        Bodies that turn as one have two velocities at a step's end: solved, and turned; the sums are of the first.
         """
         n, t, torque, nx, ny, gap = table[:, 2:8].T
         i, j = table[:, :2].astype(int).T - self.first
@@ -81,11 +86,13 @@ class Work:
 class Watch:
     """Steps and rows of an experiment while it runs.
 
-    ``steps``: arrays with a first axis of steps: ``iter``, ``time`` (at the end), ``dt``, ``gravity`` (2), ``before`` and ``after`` (columns of
-    tables.bodies: x, y, angle, vx, vy, omega; shape (6, disks)), ``walls`` (pieces, 3: force and torque on them), ``water`` (2: the force on all disks),
-    ``height``, ``wet``, ``released``, ``ever_wet``, ``counters`` (:data:`COUNTERS`), ``losses`` (sliding, rolling, impact, bonds: by hand), ``slip`` (of each disk on DP), ``solved`` (vx, vy, omega that
-    the step was solved for: bonded disks that turn as one are turned then).
-    ``begun``, ``rows``: the contact table after two steps and at each row, see :func:`sorted_contacts`; ``dumps``: every :data:`DUMPED` rows the number of the row and its contact problem.
+    ``steps``: arrays with a first axis of steps: ``iter``, ``time`` (at the end), ``dt``, ``gravity`` (2), ``before``
+    and ``after`` (columns of tables.bodies: x, y, angle, vx, vy, omega; shape (6, disks)), ``walls`` (pieces, 3: force
+    and torque on them), ``water`` (2: the force on all disks), ``height``, ``wet``, ``released``, ``ever_wet``,
+    ``counters`` (:data:`COUNTERS`), ``losses`` (sliding, rolling, impact, bonds: by hand), ``slip`` (of each disk on
+    DP), ``solved`` (vx, vy, omega that the step was solved for: bonded disks that turn as one are turned then).
+    ``begun``, ``rows``: the contact table after two steps and at each row, see :func:`sorted_contacts`; ``dumps``:
+    every :data:`DUMPED` rows the number of the row and its contact problem.
     """
 
     COUNTERS = (
@@ -156,7 +163,9 @@ class Watch:
         self._last = after
 
     def _of_contacts(self, before, after, h):
-        """What contacts dissipated in a step [J], how far each disk slipped on DP [m], and the velocities that the step was solved for."""
+        """What contacts dissipated in a step [J], how far each disk slipped on DP [m], and the velocities that the step
+        was solved for.
+        """
         table, places = sorted_contacts(self.solver), [0, 1, 3, 4, 5]
         end = solved(self.solver, after[places], self.first, self.folder / "step.h5")
         losses, _, u = self.work.of(table, before[places], end, h)
@@ -218,14 +227,17 @@ class Watch:
         return -((self.mass * x).sum(1) * self.steps.gravity[:, 0] + (self.mass * y).sum(1) * self.steps.gravity[:, 1])
 
     def on_walls(self, name):
-        """Normal force into a wall and shear force along it in every step [N/m], two arrays: sums over its pieces by hand."""
+        """Normal force into a wall and shear force along it in every step [N/m], two arrays: sums over its pieces by
+        hand.
+        """
         of = [k for k, wall in enumerate(self.wall_of) if wall == name]
         f, (c, s) = self.steps.walls[:, of], self.way[of].T
         return (f[:, :, 0] * s - f[:, :, 1] * c).sum(1), (f[:, :, 0] * c + f[:, :, 1] * s).sum(1)
 
 
 def run(folder, watched=True, **changes):
-    """The small slope until it rests, in this process: a namespace with ``folder``, ``section``, ``state``, ``series``, ``summary``, ``watch``.
+    """The small slope until it rests, in this process: a namespace with ``folder``, ``section``, ``state``, ``series``,
+    ``summary``, ``watch``.
 
     ``changes``: fields of experiment.Experiment.
     """

@@ -1,5 +1,5 @@
-"""Many runs as one plan: made and checked before any begins, run side by side here or on a cluster, collected into one table; and single runs of every kind. Needs
-no YADE: each run has a process of its own.
+"""Many runs as one plan: made and checked before any begins, run side by side here or on a cluster, collected into one
+table; and single runs of every kind. Needs no YADE: each run has a process of its own.
 
 * :mod:`sweep`: a slope with some of its values varied, and a slope alone;
 * :mod:`plan`: a plan in its folder: run, resumed, collected;

@@ -1,4 +1,6 @@
-"""Several runs of one kind from a dictionary of cases: their arguments checked, planned, and run side by side below one folder. Needs no YADE."""
+"""Several runs of one kind from a dictionary of cases: their arguments checked, planned, and run side by side below one
+folder. Needs no YADE.
+"""
 
 from __future__ import annotations
 
@@ -12,10 +14,12 @@ __all__ = ["run"]
 
 
 def run(cases, out, planned, command, threads, resume, error, remedies) -> list:
-    """Runs ``cases``, {name: (what, {name: value})}, as many at a time as ``threads``, in ``out/runs/NAME``; returns the side_by_side.Runs that ``planned(name, folder, what, values)`` has made.
+    """Runs ``cases``, {name: (what, {name: value})}, as many at a time as ``threads``, in ``out/runs/NAME``; returns
+    the side_by_side.Runs that ``planned(name, folder, what, values)`` has made.
 
-    ``command``: whose folder it is; ``remedies``: what to give for cases that are no such dictionary, and for one case that is no such pair. Raises ``error``, a class, for arguments
-    that make no sense, before anything runs, and where a run fails, after the others have ended; FolderError where another process works in the folder.
+    ``command``: whose folder it is; ``remedies``: what to give for cases that are no such dictionary, and for one case
+    that is no such pair. Raises ``error``, a class, for arguments that make no sense, before anything runs, and where a
+    run fails, after the others have ended; FolderError where another process works in the folder.
     """
     checks.path("out", out, error, runs.FOLDER)
     threads = checks.count("threads", threads, error, runs.THREADS)

@@ -1,4 +1,6 @@
-"""A plan's files for a cluster: a Snakefile for Snakemake, and an array job for Slurm. Both call scripts/sweep.py for each run."""
+"""A plan's files for a cluster: a Snakefile for Snakemake, and an array job for Slurm. Both call scripts/sweep.py for
+each run.
+"""
 
 from __future__ import annotations
 

@@ -1,4 +1,5 @@
-"""Hard and soft contacts compared from any Python, as scripts/compare_hard_soft.py does it, and the result opened from its folder.
+"""Hard and soft contacts compared from any Python, as scripts/compare_hard_soft.py does it, and the result opened from
+its folder.
 
     from nonsmooth import campaign
 
@@ -43,7 +44,9 @@ class ComparisonRun(runs.Opened):
 
     @cached_property
     def questions(self) -> list:
-        """(question, verdict, sentences) of each. Raises RunError where the command made the comparison, which does not keep them."""
+        """(question, verdict, sentences) of each. Raises RunError where the command made the comparison, which does not
+        keep them.
+        """
         return [tuple(one) for one in json.loads(self._file(ANSWERS).read_text())["questions"]]
 
     @property
@@ -70,9 +73,11 @@ def open_comparison(folder) -> ComparisonRun:
 def run_comparison(scenario, out, seeds, threads=1, resume=False, **options) -> ComparisonRun:
     """Runs a comparison in the folder ``out``, as many runs at a time as ``threads``, and opens it.
 
-    ``scenario``: "slope", "biaxial", "column" or "pile"; ``seeds``: of the packings; ``options``: ``disks``, ``stiffnesses`` [Pa], ``without`` and the others of
-    comparison.course.compare; ``resume``: keep runs that have ended. Raises ComparisonError for a scenario, seeds, a folder or threads that make no sense, processes.RunError where values cannot be used, with the reason, or where a run fails; FolderError
-    where another process works in the folder.
+    ``scenario``: "slope", "biaxial", "column" or "pile"; ``seeds``: of the packings; ``options``: ``disks``,
+    ``stiffnesses`` [Pa], ``without`` and the others of comparison.course.compare; ``resume``: keep runs that have
+    ended. Raises ComparisonError for a scenario, seeds, a folder or threads that make no sense, processes.RunError
+    where values cannot be used, with the reason, or where a run fails; FolderError where another process works in the
+    folder.
     """
     known = ("slope", "biaxial", "column", "pile")
     if scenario not in known:

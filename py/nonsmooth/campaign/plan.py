@@ -6,7 +6,8 @@
     table.csv              a row for each run: its values and its results
     means.json             where seeds were varied: the results' means over them, for each combination of the other values and each verdict
 
-A result is kept with the key of its input, the engines and this package's code; another's is made anew, and never collected.
+A result is kept with the key of its input, the engines and this package's code; another's is made anew, and never
+collected.
 """
 
 from __future__ import annotations
@@ -39,8 +40,8 @@ class PlanError(UserError, RuntimeError):
 
 @dataclass(frozen=True)
 class Planned:
-    """One run: its ``name``, which is that of its folder; the ``values`` that tell it from the others, for the table; ``arguments`` of the plan's function;
-    ``work``: what it costs beside the others."""
+    """One run: its ``name``, which is that of its folder; the ``values`` that tell it from the others, for the table;
+    ``arguments`` of the plan's function; ``work``: what it costs beside the others."""
 
     name: str
     values: dict
@@ -55,8 +56,9 @@ class Planned:
 
 @dataclass(frozen=True)
 class Plan:
-    """Runs of one ``function``, "module:name" of this package (see processes.call); what it returns goes into the table. It goes on from what a halted run
-    has left in its folder. ``notes``: sentences on what runs are allowed and may not be meant to do, not kept in the folder.
+    """Runs of one ``function``, "module:name" of this package (see processes.call); what it returns goes into the
+    table. It goes on from what a halted run has left in its folder. ``notes``: sentences on what runs are allowed and
+    may not be meant to do, not kept in the folder.
     """
 
     title: str
@@ -77,10 +79,12 @@ class Plan:
         cluster.write(out, self.title, {one.name: keys.run_key(one.key, self.function) for one in self.runs})
 
     def run(self, out, threads=1, resume=False, progress=lambda share, ended: None) -> dict:
-        """Runs all, as many at a time as ``threads``, below the folder ``out``, and returns the table (see :func:`collect`).
+        """Runs all, as many at a time as ``threads``, below the folder ``out``, and returns the table (see
+        :func:`collect`).
 
-        ``resume``: keep what has ended and go on with what was halted. ``progress``: called with the share done and the number of runs that have ended. Raises
-        FolderError where another process works there, PlanError with the first failure after the others have ended, and interrupts.Interrupted after Ctrl-C.
+        ``resume``: keep what has ended and go on with what was halted. ``progress``: called with the share done and the
+        number of runs that have ended. Raises FolderError where another process works there, PlanError with the first
+        failure after the others have ended, and interrupts.Interrupted after Ctrl-C.
         """
         checks.path("out", out, PlanError, runs.FOLDER)
         threads = checks.count("threads", threads, PlanError, runs.THREADS)
@@ -113,8 +117,9 @@ def read(out) -> Plan:
 
 
 def run_one(out, which):
-    """Does one run of the plan in the folder ``out``, as a job of a cluster does: ``which``: its name, or its number from 0. Returns its result, which is
-    kept; a run that has ended is not repeated, and one that was halted goes on. Raises PlanError where there is no such run, or where it fails.
+    """Does one run of the plan in the folder ``out``, as a job of a cluster does: ``which``: its name, or its number
+    from 0. Returns its result, which is kept; a run that has ended is not repeated, and one that was halted goes on.
+    Raises PlanError where there is no such run, or where it fails.
     """
     plan = read(out)
     found = [one for k, one in enumerate(plan.runs) if which in (one.name, k)]
@@ -131,8 +136,9 @@ def run_one(out, which):
 
 
 def collect(out) -> dict:
-    """Writes the table of the plan in the folder ``out``, and returns it: {column: list, a value for each run}; columns are the varied values, ``run`` (the
-    name), what became of slopes (``verdict``) and why times did not come (``times_missing.t3``), and the numbers that the results have, None where one has no meaning.
+    """Writes the table of the plan in the folder ``out``, and returns it: {column: list, a value for each run}; columns
+    are the varied values, ``run`` (the name), what became of slopes (``verdict``) and why times did not come
+    (``times_missing.t3``), and the numbers that the results have, None where one has no meaning.
 
     Raises PlanError where runs have not ended, or are of other input, engines or code.
     """
@@ -160,10 +166,13 @@ def collect(out) -> dict:
 
 
 def means(table, varied) -> list:
-    """Means over seeds of the numbers in a table (see :func:`collect`) for each combination of the other ``varied`` keys and each verdict (:data:`yade.nonsmooth.studies.slope.verdict.MEANINGS`), as a slope that
-    stood and one that failed have nothing in common that a mean would tell: dictionaries with ``values`` of these keys, ``verdict`` (None in a table that has none), ``seeds``,
-    ``of``, the number of runs of this combination whatever became of them, ``times_missing``, {time: why it did not come, a list, one a run}, and ``numbers``, {name: see
-    statistics.over_seeds}. Where no seed was varied each run is a row of its own. Raises PlanError for a table without the column ``run``, or without one of the ``varied`` keys.
+    """Means over seeds of the numbers in a table (see :func:`collect`) for each combination of the other ``varied``
+    keys and each verdict (:data:`yade.nonsmooth.studies.slope.verdict.MEANINGS`), as a slope that stood and one that
+    failed have nothing in common that a mean would tell: dictionaries with ``values`` of these keys, ``verdict`` (None
+    in a table that has none), ``seeds``, ``of``, the number of runs of this combination whatever became of them,
+    ``times_missing``, {time: why it did not come, a list, one a run}, and ``numbers``, {name: see
+    statistics.over_seeds}. Where no seed was varied each run is a row of its own. Raises PlanError for a table without
+    the column ``run``, or without one of the ``varied`` keys.
     """
     checks.mapping(
         "table", table, PlanError, "give the table of a plan, {column: list}, as campaign.collect(...) returns it"
@@ -205,7 +214,9 @@ def _keys(varied):
 
 
 def numbers(result, prefix="") -> dict:
-    """The numbers of a result, those of its dictionaries as `key.key`, its verdict and why times are missing; lists and other texts are left out."""
+    """The numbers of a result, those of its dictionaries as `key.key`, its verdict and why times are missing; lists and
+    other texts are left out.
+    """
     found = {}
     for name, value in result.items():
         if isinstance(value, dict):

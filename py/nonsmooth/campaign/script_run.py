@@ -1,4 +1,6 @@
-"""What a process does with a YADE script: as YADE would run it, with parameters as yade-batch hands them over. In YADE."""
+"""What a process does with a YADE script: as YADE would run it, with parameters as yade-batch hands them over. In
+YADE.
+"""
 
 from __future__ import annotations
 
@@ -27,9 +29,11 @@ class _Twice(io.StringIO):
 
 
 def run(folder, script, parameters):
-    """Runs the ``script`` (its path) in the folder, which becomes the working folder; ``parameters``: {name: value}, of utils.readParamsFromTable.
+    """Runs the ``script`` (its path) in the folder, which becomes the working folder; ``parameters``: {name: value}, of
+    utils.readParamsFromTable.
 
-    Writes ``output.txt``, what the script has printed, and ``scene.npz``, where disks are left. Returns ``steps`` and the simulated ``time_s`` of its last scene.
+    Writes ``output.txt``, what the script has printed, and ``scene.npz``, where disks are left. Returns ``steps`` and
+    the simulated ``time_s`` of its last scene.
     """
     from yade import O
 
@@ -41,7 +45,8 @@ def run(folder, script, parameters):
         (folder / TABLE).write_text(f"{' '.join(['description', *parameters])}\n{' '.join(row)}\n")
         os.environ["YADE_BATCH"] = f"{folder / TABLE}:2"
     sys.argv = [script]
-    # among the names that YADE gives its scripts, where engines look for them too; those of this process must be there again afterwards
+    # among the names that YADE gives its scripts, where engines look for them too; those of this process must be there
+    # again afterwards
     names, said = vars(sys.modules["__main__"]), _Twice()
     before = dict(names)
     names["__file__"] = script

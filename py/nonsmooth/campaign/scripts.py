@@ -1,4 +1,5 @@
-"""YADE scripts from any Python, the lessons among them: each runs in a YADE process of its own, and is opened from its folder.
+"""YADE scripts from any Python, the lessons among them: each runs in a YADE process of its own, and is opened from its
+folder.
 
     from nonsmooth import campaign
 
@@ -71,8 +72,9 @@ class ScriptRun(runs.Opened):
             ) from None
 
     def table(self, first=None) -> dict:
-        """Columns of the table whose line of names begins with ``first``: {name: list of numbers, or of texts where a cell is none}. Two or more spaces part the names, or commas where there are no such
-        spaces. None: the only table. Raises RunError where there is none, or where there are several to choose from; it says which there are.
+        """Columns of the table whose line of names begins with ``first``: {name: list of numbers, or of texts where a
+        cell is none}. Two or more spaces part the names, or commas where there are no such spaces. None: the only
+        table. Raises RunError where there is none, or where there are several to choose from; it says which there are.
         """
         found, lines = self._tables, self.output.splitlines()
         if first is None:
@@ -120,7 +122,9 @@ class ScriptRun(runs.Opened):
         return scene_arrays.load(self._file(SCENE))
 
     def figure(self, name="scene", ax=None):
-        """The ``scene`` at the end, as figures.draw draws it; ``ax``: axes to draw on, of a figure of one's own. Raises RunError for another name, and where there is none."""
+        """The ``scene`` at the end, as figures.draw draws it; ``ax``: axes to draw on, of a figure of one's own. Raises
+        RunError for another name, and where there is none.
+        """
         if name != "scene":
             raise runs.RunError(f"{self.folder}: no figure is called {name!r}; give scene")
         from .. import figures  # brings matplotlib, which a reader of numbers need not wait for
@@ -143,7 +147,9 @@ def _value(cell):
 
 
 def _rows(lines, width):
-    """Rows of a table of ``width`` columns, as far as lines are rows: of so many numbers, or of so many cells among which are numbers."""
+    """Rows of a table of ``width`` columns, as far as lines are rows: of so many numbers, or of so many cells among
+    which are numbers.
+    """
     rows = []
     for line in lines:
         for cells in (line.split(), _cells(line)):
@@ -192,15 +198,18 @@ def lesson(name, world="hard") -> Path:
 
 
 def run_lesson(name, out, world="hard", resume=None, **parameters) -> ScriptRun:
-    """Runs the ``hard`` or ``soft`` script of a lesson. Raises what :func:`lesson` raises; the rest as for :func:`run_script`."""
+    """Runs the ``hard`` or ``soft`` script of a lesson. Raises what :func:`lesson` raises; the rest as for
+    :func:`run_script`.
+    """
     return run_script(lesson(name, world), out, resume, **parameters)
 
 
 def run_script(script, out, resume=None, **parameters) -> ScriptRun:
-    """Runs one YADE script in the folder ``out``, with its ``parameters``, and opens the run; the rest as for :func:`run_scripts`.
+    """Runs one YADE script in the folder ``out``, with its ``parameters``, and opens the run; the rest as for
+    :func:`run_scripts`.
 
-    ``resume``: whether to keep a run of the same script and parameters that has ended (None: not). Raises ScriptError too where the script itself has a parameter of that name, which
-    :func:`run_scripts` takes.
+    ``resume``: whether to keep a run of the same script and parameters that has ended (None: not). Raises ScriptError
+    too where the script itself has a parameter of that name, which :func:`run_scripts` takes.
     """
     checks.path("out", out, ScriptError, runs.FOLDER)
     known = () if resume is None else parameters_of(script) or ()
@@ -217,12 +226,13 @@ def run_script(script, out, resume=None, **parameters) -> ScriptRun:
 
 
 def run_scripts(cases, out, threads=1, resume=False) -> dict:
-    """Runs ``cases``, {name: (script, parameters)}, as many at a time as ``threads``, each in a process of its own and in the folder ``out/runs/NAME``, which is its working folder;
-    returns {name: ScriptRun}.
+    """Runs ``cases``, {name: (script, parameters)}, as many at a time as ``threads``, each in a process of its own and
+    in the folder ``out/runs/NAME``, which is its working folder; returns {name: ScriptRun}.
 
-    ``script``: path of a YADE script, as :func:`lesson` gives it; ``parameters``: {name: number or text}, what it reads by ``utils.readParamsFromTable``; ``resume``: keep runs
-    of the same script and parameters that have ended. Raises ScriptError for a script that is not there and for parameters that it does not read, before anything runs,
-    and where a script fails, after the others have ended; FolderError where another process works in the folder.
+    ``script``: path of a YADE script, as :func:`lesson` gives it; ``parameters``: {name: number or text}, what it reads
+    by ``utils.readParamsFromTable``; ``resume``: keep runs of the same script and parameters that have ended. Raises
+    ScriptError for a script that is not there and for parameters that it does not read, before anything runs, and where
+    a script fails, after the others have ended; FolderError where another process works in the folder.
     """
     remedies = (
         "give a dictionary {name: (script, {parameter: value})}, of one or more",
@@ -251,8 +261,8 @@ def _planned(name, folder, script, parameters):
 
 
 def parameters_of(script):
-    """Names that a script gives to ``utils.readParamsFromTable``, in order, read from its source; None where they cannot be read from it. Raises ScriptError for a
-    script that is not there or no Python."""
+    """Names that a script gives to ``utils.readParamsFromTable``, in order, read from its source; None where they
+    cannot be read from it. Raises ScriptError for a script that is not there or no Python."""
     checks.path("script", script, ScriptError, "give the path of a YADE script")
     try:
         tree = ast.parse(Path(script).read_bytes())

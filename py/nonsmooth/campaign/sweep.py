@@ -1,4 +1,6 @@
-"""A slope with some of its values varied: all combinations, each checked like a section file before anything runs; and a slope alone."""
+"""A slope with some of its values varied: all combinations, each checked like a section file before anything runs; and
+a slope alone.
+"""
 
 from __future__ import annotations
 
@@ -25,11 +27,14 @@ FUNCTION = "studies.slope.slope_run:run"
 def sweep(base, over, end=None, figures=False) -> Plan:
     """A Plan of all combinations of the values in ``over``, {key: values}, for the Section ``base``.
 
-    A key is the way to a value in a section file, with dots: ``seed``, ``water.table.rate``, ``materials.soil.friction``, ``walls.DP.material``, where items
-    of a list go by their name. Each run has what a file with its values gives (see :func:`.section_values.with_values`). ``end``: stop after so many seconds of simulated time; ``figures``: draw each run's too.
+    A key is the way to a value in a section file, with dots: ``seed``, ``water.table.rate``,
+    ``materials.soil.friction``, ``walls.DP.material``, where items of a list go by their name. Each run has what a file
+    with its values gives (see :func:`.section_values.with_values`). ``end``: stop after so many seconds of simulated
+    time; ``figures``: draw each run's too.
 
-    Raises PlanError for what is no Section, no such dictionary or no time, for a key that the section has not, for no or doubled values, and for more than :data:`MOST` runs; SectionError, naming the run, where a
-    combination is no section.
+    Raises PlanError for what is no Section, no such dictionary or no time, for a key that the section has not, for no
+    or doubled values, and for more than :data:`MOST` runs; SectionError, naming the run, where a combination is no
+    section.
     """
     _check(base, "base", end)
     remedy = "give a dictionary {key: values}, as {'seed': [1, 2]}"
@@ -73,17 +78,20 @@ def sweep(base, over, end=None, figures=False) -> Plan:
 
 
 def results_of(plan) -> list | None:
-    """Names of the numbers that the runs of a Plan may have in their table, known before anything runs; None where they are no slopes."""
+    """Names of the numbers that the runs of a Plan may have in their table, known before anything runs; None where they
+    are no slopes.
+    """
     if plan.function != FUNCTION:
         return None
     return results.numbers_of(section.of(plan.runs[0].arguments["data"], plan.runs[0].name))
 
 
 def run_slope(made, out, end=None, figures=False, resume=False, threads=1) -> runs.Run:
-    """Runs one Section in the folder ``out``, in a process of its own, and opens the run; the process may have several ``threads``. The rest as for :func:`sweep`;
-    ``resume``: go on from its checkpoint.
+    """Runs one Section in the folder ``out``, in a process of its own, and opens the run; the process may have several
+    ``threads``. The rest as for :func:`sweep`; ``resume``: go on from its checkpoint.
 
-    Raises PlanError for arguments that make no sense, FolderError where another process works there, and processes.RunError where the run fails.
+    Raises PlanError for arguments that make no sense, FolderError where another process works there, and
+    processes.RunError where the run fails.
     """
     _check(made, "made", end)
     checks.path("out", out, PlanError, runs.FOLDER)

@@ -1,4 +1,6 @@
-"""How a command ends, and how it warns: its status, and one line on a line of its own for what a user can mend and for Ctrl-C."""
+"""How a command ends, and how it warns: its status, and one line on a line of its own for what a user can mend and for
+Ctrl-C.
+"""
 
 from __future__ import annotations
 
@@ -20,8 +22,8 @@ INTERRUPTED = 130  # as a shell counts a process that Ctrl-C has ended
 
 
 def run(main, kept="nothing is kept: run it again"):
-    """Calls ``main()``. Ends the process with status 1 after a UserError or a file that cannot be written, and with 130 after Ctrl-C, one line on stderr each;
-    a UserNote is one line too.
+    """Calls ``main()``. Ends the process with status 1 after a UserError or a file that cannot be written, and with 130
+    after Ctrl-C, one line on stderr each; a UserNote is one line too.
 
     ``kept``: what that line says where what was interrupted did not say it itself.
     """
@@ -59,7 +61,9 @@ def _end(status, line):
 
 @contextlib.contextmanager
 def closing(bar):
-    """Closes a tqdm bar at the end of the block. Where the block raises the bar stays on its line, so that the message gets one of its own."""
+    """Closes a tqdm bar at the end of the block. Where the block raises the bar stays on its line, so that the message
+    gets one of its own.
+    """
     try:
         yield bar
     except BaseException:

@@ -28,7 +28,9 @@ def pressures(least=1):
 
 
 class EachOnce(argparse.Action):
-    """Action of an option that takes several values, as seeds: a value that stands twice would be run once, and counted twice or not at all."""
+    """Action of an option that takes several values, as seeds: a value that stands twice would be run once, and counted
+    twice or not at all.
+    """
 
     def __call__(self, parser, namespace, values, option_string=None):
         if len(set(values)) < len(values):

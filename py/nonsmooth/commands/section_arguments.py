@@ -13,7 +13,9 @@ __all__ = ["add", "number", "read", "seconds", "threads"]
 
 
 def number(kind, low, high, what):
-    """A reader for argparse: a number of the ``kind`` from ``low`` to ``high``, or a message that says what is needed."""
+    """A reader for argparse: a number of the ``kind`` from ``low`` to ``high``, or a message that says what is
+    needed.
+    """
 
     def read(text):
         try:
@@ -32,7 +34,9 @@ threads = number(int, 1, 1024, "a whole number from 1 to 1024")
 
 
 def add(parser, default=None, needless=()):
-    """Adds them to an argparse parser; ``default``: the section where none is given, which is an error without it unless one of the words ``needless`` is there."""
+    """Adds them to an argparse parser; ``default``: the section where none is given, which is an error without it
+    unless one of the words ``needless`` is there.
+    """
     parser.add_argument(
         "--section",
         default=default,

@@ -44,7 +44,9 @@ class Course:
         raise NotImplementedError
 
     def _look(self, made):
-        """Writes a row of the scene as it is, decides, tells how far the course is; ``made``: what ``_steps`` returned."""
+        """Writes a row of the scene as it is, decides, tells how far the course is; ``made``: what ``_steps``
+        returned.
+        """
         raise NotImplementedError
 
     def _where(self) -> str:

@@ -1,25 +1,32 @@
-"""What decides the course of a slope's run: functions of the state and of what a row sees of the slope, which give the next state. Needs no YADE.
+"""What decides the course of a slope's run: functions of the state and of what a row sees of the slope, which give the
+next state. Needs no YADE.
 
 Rules:
 
 * bonds are made in the packing as it is, without load; then gravity grows to its value during ``stages.settle.ramp``;
 * settled: the mean speed is below ``stages.settle.speed_rest``, or ``time_max`` has passed; the dry rest begins;
-* failed dry: before t0 the mean speed has reached 2 m/s, or the mass has collapsed: its centre has gone :data:`COLLAPSED` of its size sideways, or
-  :data:`CRACKED_WAY` of it with :data:`CRACKED` of the bonds broken; or the mean speed is 0.2 m/s at t0, or comes to that without having been below
-  0.02 m/s since. The water does not rise, or no further; the slope is followed until it rests. What moved it, its weight or something else, says :mod:`yade.nonsmooth.studies.slope.verdict`;
+* failed dry: before t0 the mean speed has reached 2 m/s, or the mass has collapsed: its centre has gone
+  :data:`COLLAPSED` of its size sideways, or :data:`CRACKED_WAY` of it with :data:`CRACKED` of the bonds broken; or the
+  mean speed is 0.2 m/s at t0, or comes to that without having been below 0.02 m/s since. The water does not rise, or no
+  further; the slope is followed until it rests. What moved it, its weight or something else, says
+  :mod:`yade.nonsmooth.studies.slope.verdict`;
 * t0: the dry rest ends, the water begins to rise;
-* moving, t2: the mean speed reaches 0.2 m/s: the slope no longer just follows the water. With ``water.hold: motion`` the table stays where it
-  is from here on, and the solver's tolerance is ``tolerance_moving``, until the mean speed is down to a tenth of its maximum; from there
-  it falls with the speed, down to ``tolerance``. A slope that comes to rest again without having got going does not count as moving: the
-  table then goes on rising;
-* still: the slope does not move and its water table has stood at one height for 5 s: the tolerance is a quarter of ``tolerance``, since
-  nothing but the solver's error is left to move a disk, and over a minute a looser solve breaks a bond or two that bear all they can;
-* rows and snapshots are of the first steps that end at, or less than half a step before, whole multiples of their distance in time, from the beginning on;
+* moving, t2: the mean speed reaches 0.2 m/s: the slope no longer just follows the water. With ``water.hold: motion``
+  the table stays where it is from here on, and the solver's tolerance is ``tolerance_moving``, until the mean speed is
+  down to a tenth of its maximum; from there it falls with the speed, down to ``tolerance``. A slope that comes to rest
+  again without having got going does not count as moving: the table then goes on rising;
+* still: the slope does not move and its water table has stood at one height for 5 s: the tolerance is a quarter of
+  ``tolerance``, since nothing but the solver's error is left to move a disk, and over a minute a looser solve breaks a
+  bond or two that bear all they can;
+* rows and snapshots are of the first steps that end at, or less than half a step before, whole multiples of their
+  distance in time, from the beginning on;
 * speeds and times in this list are those of the shipped section, and scaled for another (:mod:`.scales`);
-* with soft contacts there is no tolerance: what goes from one value to another while the slope moves is the integrator's damping;
-* end: the mean speed has been below ``rest_fraction`` of its maximum for ``rest_hold`` seconds, or the slope stands and nothing is left that could change it, or
-  ``end.time`` has passed. It stands where for 5 s, and for ``rest_hold`` seconds more, the mean speed has been no more than ``stages.settle.speed_rest``, no bond broke and no other
-  disk got wet, and the water table stays where it is or above all disks; a script that may do more to it says so.
+* with soft contacts there is no tolerance: what goes from one value to another while the slope moves is the
+  integrator's damping;
+* end: the mean speed has been below ``rest_fraction`` of its maximum for ``rest_hold`` seconds, or the slope stands and
+  nothing is left that could change it, or ``end.time`` has passed. It stands where for 5 s, and for ``rest_hold``
+  seconds more, the mean speed has been no more than ``stages.settle.speed_rest``, no bond broke and no other disk got
+  wet, and the water table stays where it is or above all disks; a script that may do more to it says so.
 """
 
 from __future__ import annotations
@@ -51,8 +58,9 @@ STAGES = ("settle", "dry", "water")  # by their number in the series
 FRAME_ROWS = 5  # between two snapshots, for the video and the figures
 SLOW_FRACTION = 0.1  # of the largest mean speed, see above
 STILL_SHARE = 0.25  # the tolerance of a slope that is still, of itself
-# Slopes of some hundred disks that stand move their centre by less than 0.002 of their size while they are loaded, and lose 2 % of their bonds at most, rocks that fall
-# off their face included; those that collapse go 0.03 and more, and lose 12 % and more.
+# Slopes of some hundred disks that stand move their centre by less than 0.002 of their size while they are loaded, and
+# lose 2 % of their bonds at most, rocks that fall off their face included; those that collapse go 0.03 and more, and
+# lose 12 % and more.
 COLLAPSED = 0.01  # way of the mass's centre, in its size (the root of its area)
 CRACKED, CRACKED_WAY = 0.1, 0.002  # of the bonds, with such a way
 # for the progress bar alone
@@ -62,7 +70,9 @@ SETTLING, MOTION, RISE = (8.0, 55.0, 25.0)
 
 @dataclass
 class State:
-    """Where the experiment stands, all of which goes into checkpoints; times in s of the simulation, None while they have not come."""
+    """Where the experiment stands, all of which goes into checkpoints; times in s of the simulation, None while they
+    have not come.
+    """
 
     stage: str = "settle"  # settle, dry, water, done
     settled: float | None = None
@@ -102,12 +112,13 @@ class State:
 
 @dataclass(frozen=True)
 class Seen:
-    """What a row sees of the slope: ``time`` [s] and length of the last ``step`` [s], mean ``speed`` [m/s], height of the ``water`` table [m], None where
-    the section has none.
+    """What a row sees of the slope: ``time`` [s] and length of the last ``step`` [s], mean ``speed`` [m/s], height of
+    the ``water`` table [m], None where the section has none.
 
-    ``way``: of the mass's centre since it was packed, sideways, in its size; ``broken``: part of the bonds that is broken; ``wet``: number of wet disks; ``top``: height of the
-    highest disk's centre above the water's plane [m]; ``outside``: energy from elsewhere than weight and water [J/m], None where nobody counts it; ``more``: whether
-    a script may do more to the slope, whatever the course is.
+    ``way``: of the mass's centre since it was packed, sideways, in its size; ``broken``: part of the bonds that is
+    broken; ``wet``: number of wet disks; ``top``: height of the highest disk's centre above the water's plane [m];
+    ``outside``: energy from elsewhere than weight and water [J/m], None where nobody counts it; ``more``: whether a
+    script may do more to the slope, whatever the course is.
     """
 
     time: float
@@ -124,7 +135,9 @@ class Seen:
 
 # ---- the state --------------------------------------------------------------------------------------
 def noted(state, seen, scales):
-    """The State with what counts before a row is written: whether the slope got going or collapsed before the water, its largest mean speed since it counts, and what has acted on it."""
+    """The State with what counts before a row is written: whether the slope got going or collapsed before the water,
+    its largest mean speed since it counts, and what has acted on it.
+    """
     before = state.stage != "water"
     s = replace(state, speed_before=max(state.speed_before, seen.speed) if before else state.speed_before)
     if s.failed_dry is None and s.moving is None:
@@ -200,7 +213,9 @@ def _water(state, seen, section, scales):
 
 
 def _quieted(s, seen, section):
-    """The State with the time since when the slope has been at rest, with the same bonds and the same wet disks, under the last load that comes."""
+    """The State with the time since when the slope has been at rest, with the same bonds and the same wet disks, under
+    the last load that comes.
+    """
     calm = s.moving is None and seen.speed <= section.stages.settle.speed_rest and _load_stays(s, seen, section)
     same = (s.quiet_broken, s.quiet_wet) == (seen.broken, seen.wet)
     since = None if not calm else s.quiet_since if s.quiet_since is not None and same else seen.time
@@ -217,7 +232,9 @@ def _load_stays(s, seen, section):
 
 
 def stands(state, seen, section, scales):
-    """Whether the slope has stood so long under the last load that comes that nothing is left which could change it: until it is solved more tightly, and at rest since."""
+    """Whether the slope has stood so long under the last load that comes that nothing is left which could change it:
+    until it is solved more tightly, and at rest since.
+    """
     hold = scales.still_seconds + section.stages.end.rest_hold
     return state.quiet_since is not None and _passed(seen, hold, state.quiet_since)
 
@@ -249,7 +266,9 @@ def flowing(speed, largest):
 
 
 def care(state, seen, scales):
-    """How exactly contacts want to be computed in the water stage: (from 0 at rest to 1 on the move, whether the slope is still)."""
+    """How exactly contacts want to be computed in the water stage: (from 0 at rest to 1 on the move, whether the slope
+    is still).
+    """
     # reactions at rest depend on how the mass came to rest, so more care while it slows down
     return (
         0.0 if state.moving is None else flowing(seen.speed, state.speed_max),
@@ -263,7 +282,9 @@ def tolerance(flowing, still, numerics):
 
 
 def damping(flowing, rest, moving):
-    """Of the integrator with soft contacts, whose values are ``rest`` and ``moving``; ``flowing``: as :func:`care` returned it."""
+    """Of the integrator with soft contacts, whose values are ``rest`` and ``moving``; ``flowing``: as :func:`care`
+    returned it.
+    """
     return (1 - flowing) * rest + flowing * moving
 
 
@@ -273,7 +294,9 @@ def gravity_share(time, settle):
 
 
 def next_row(time, step, seconds):
-    """Number of the row that ends next, counted from time 0, where rows are ``seconds`` apart: on the same steps after a resume."""
+    """Number of the row that ends next, counted from time 0, where rows are ``seconds`` apart: on the same steps after
+    a resume.
+    """
     return math.floor((time + 0.5 * step) / seconds) + 1
 
 

@@ -1,9 +1,11 @@
-"""Figures of a run, made from its records alone, and sketches of the law (no YADE, no display); pictures and videos of any scene.
+"""Figures of a run, made from its records alone, and sketches of the law (no YADE, no display); pictures and videos of
+any scene.
 
 Every function takes data and returns the matplotlib Figure it draws. With the ``path`` of a PNG it writes the figure
 there instead and returns the path; ``pdf=True`` writes a PDF beside it (disks and bars rasterised, text and lines as
-vectors). Walls are given as a Section, as ``[(name, vertices (n, 2), role)]``, as objects with these attributes, or as an object
-that has such ``walls``; see :mod:`nonsmooth.measure.ground`. Data that lack something raise :class:`~nonsmooth.records.RecordsError`.
+vectors). Walls are given as a Section, as ``[(name, vertices (n, 2), role)]``, as objects with these attributes, or as
+an object that has such ``walls``; see :mod:`nonsmooth.measure.ground`. Data that lack something raise
+:class:`~nonsmooth.records.RecordsError`.
 """
 
 from .controls import forces_against_water, speeds, with_and_without

@@ -28,8 +28,9 @@ def _colours(count):
 def stress_strain(tests, path=None, pdf=False):
     """Axial stress over σ₃ and volumetric strain against axial strain (the paper's Figure 10).
 
-    ``tests``: list of (σ₃ [Pa], series, measured): columns of `laboratory.biaxial.COLUMNS`, and the test's dictionary of ``summary.json``.
-    Thin: rows; thick: the means over 0.2 % of strain whose largest is the peak; dots: peaks; dashes: the mean on the plateau.
+    ``tests``: list of (σ₃ [Pa], series, measured): columns of `laboratory.biaxial.COLUMNS`, and the test's dictionary
+    of ``summary.json``. Thin: rows; thick: the means over 0.2 % of strain whose largest is the peak; dots: peaks;
+    dashes: the mean on the plateau.
     """
     fig = style.figure(7.6, 7.4, layout="constrained")
     top, bottom = fig.subplots(2, 1, sharex=True, height_ratios=(1.5, 1))
@@ -67,9 +68,11 @@ def stress_strain(tests, path=None, pdf=False):
 
 @style.styled
 def stress(tests, path=None, pdf=False):
-    """Axial stress itself and volumetric strain against axial strain, as the paper's Figure 10 has them, so that the two can be laid over each other.
+    """Axial stress itself and volumetric strain against axial strain, as the paper's Figure 10 has them, so that the
+    two can be laid over each other.
 
-    ``tests``: as of :func:`stress_strain`. The paper's pressures, 4, 8 and 16 MPa, are drawn in its greys, or where none of them was tested all others, which are ours.
+    ``tests``: as of :func:`stress_strain`. The paper's pressures, 4, 8 and 16 MPa, are drawn in its greys, or where
+    none of them was tested all others, which are ours.
     """
     theirs = [test for test in tests if test[0] in PAPER]
     fig = style.figure(7.6, 7.4, layout="constrained")
@@ -89,9 +92,11 @@ def stress(tests, path=None, pdf=False):
 
 @style.styled
 def mohr(summary, path=None, pdf=False):
-    """Mohr circles at the peak and on the plateau with their envelopes (the paper's Figure 11); right: the circles of low pressure.
+    """Mohr circles at the peak and on the plateau with their envelopes (the paper's Figure 11); right: the circles of
+    low pressure.
 
-    ``summary``: of a campaign with an envelope. Several seeds: circles of all, envelope with the mean cohesion and friction.
+    ``summary``: of a campaign with an envelope. Several seeds: circles of all, envelope with the mean cohesion and
+    friction.
     """
     fig = style.figure(10.4, 4.6, layout="constrained")
     whole, close = fig.subplots(1, 2)
@@ -149,7 +154,8 @@ def _frame(ax, *snapshots):
 
 
 def film(paths, words, path):
-    """A video of a sample in the colours of :func:`rotations`: ``paths`` of its frames (:meth:`.laboratory.biaxial.BiaxialCourse.frame`), ``words`` beside the time. Returns the ``path``, .mp4 or .gif.
+    """A video of a sample in the colours of :func:`rotations`: ``paths`` of its frames
+    (:meth:`.laboratory.biaxial.BiaxialCourse.frame`), ``words`` beside the time. Returns the ``path``, .mp4 or .gif.
 
     Raises RecordsError where there is no frame, for one without angles or walls, and for a file that cannot be made.
     """
@@ -215,7 +221,9 @@ def strong(snapshot):
 
 
 def draw_chains(ax, snapshot, reference, *framed):
-    """Draws a sample with its normal forces as bars between centres, whose width is that at ``reference`` [N/m] by the force; ``framed``: Snapshots that the frame holds."""
+    """Draws a sample with its normal forces as bars between centres, whose width is that at ``reference`` [N/m] by the
+    force; ``framed``: Snapshots that the frame holds.
+    """
     _frame(ax, *framed)
     style.draw_disks(ax, snapshot, np.tile([0.95, 0.94, 0.91, 1.0], (len(snapshot.x), 1)), edge="#c9c4ba", width=0.2)
     for sign, colour in ((1, style.COMPRESSION), (-1, style.TENSION)):
@@ -251,7 +259,8 @@ def chains(snapshot, title, path=None, pdf=False):
 
 @style.styled
 def effects(rows, path=None, pdf=False):
-    """Angles of friction of peak and plateau against what varies, one panel an effect; dots: samples, lines: means with their 95 % interval.
+    """Angles of friction of peak and plateau against what varies, one panel an effect; dots: samples, lines: means with
+    their 95 % interval.
 
     ``rows``: of `laboratory.effects.run`.
     """

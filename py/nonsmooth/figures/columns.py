@@ -19,7 +19,8 @@ def _stripes(x):
 
 
 def film(times, places, r, unit, path, gate=None):
-    """A video of a heap's course in the colours of :func:`collapse`: arguments as there; ``path`` ends in .mp4 or .gif. The gate is there at the first time only.
+    """A video of a heap's course in the colours of :func:`collapse`: arguments as there; ``path`` ends in .mp4 or .gif.
+    The gate is there at the first time only.
 
     Returns the path. Raises RecordsError where there is no place, and for a file that cannot be made.
     """
@@ -47,8 +48,9 @@ def film(times, places, r, unit, path, gate=None):
 def collapse(times, places, r, unit, path=None, width=None, gate=None, pdf=False):
     """Disks of a heap at several times, one below the other, to one scale, each with the outline of its connected mass.
 
-    ``times`` [s]; ``places``: (x, y) for each, arrays of shape (n,) [m]; ``r`` [m]; ``unit``: T = √(H₀/g) [s]. ``gate``: x of lines where sides stood.
-    ``width``: L₀ [m], the unit of the axes; None: metres. The last time is called the end.
+    ``times`` [s]; ``places``: (x, y) for each, arrays of shape (n,) [m]; ``r`` [m]; ``unit``: T = √(H₀/g) [s].
+    ``gate``: x of lines where sides stood. ``width``: L₀ [m], the unit of the axes; None: metres. The last time is
+    called the end.
     """
     if not len(times):
         raise RecordsError("no places are kept: run the heap with frames")
@@ -92,10 +94,12 @@ def collapse(times, places, r, unit, path=None, width=None, gate=None, pdf=False
 
 @style.styled
 def beside(runs, path=None, pdf=False):
-    """Several runs of one heap: the deposit of each, one below the other and to one scale, and beside them the fall of the centres of mass.
+    """Several runs of one heap: the deposit of each, one below the other and to one scale, and beside them the fall of
+    the centres of mass.
 
-    ``runs``: {label: run}, each with ``summary`` and ``series`` of heaps.course.HeapResult, ``places()`` as heaps.study.frames and its ``heap``, as a campaign.HeapRun. Lengths are
-    in units of L₀, times in T = √(H₀/g) of each.
+    ``runs``: {label: run}, each with ``summary`` and ``series`` of heaps.course.HeapResult, ``places()`` as
+    heaps.study.frames and its ``heap``, as a campaign.HeapRun. Lengths are in units of L₀, times in T = √(H₀/g) of
+    each.
     """
     if not runs:
         raise RecordsError("there are no runs to set beside each other; give one or more")
@@ -148,8 +152,8 @@ def beside(runs, path=None, pdf=False):
 def runout(groups, path=None, pdf=False):
     """Runout and final height against the aspect ratio, on logarithmic axes, with fits and the published laws.
 
-    ``groups``: {label: {"aspect", "runout", "height": arrays (n,); "fits": {"runout", "height": pairs of scaling.Fit or None}; "changes": {"runout",
-    "height": the aspect ratio between the two}}}.
+    ``groups``: {label: {"aspect", "runout", "height": arrays (n,); "fits": {"runout", "height": pairs of scaling.Fit or
+    None}; "changes": {"runout", "height": the aspect ratio between the two}}}.
     """
     fig = style.figure(10, 4.9, layout="constrained")
     panels = (

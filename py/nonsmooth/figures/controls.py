@@ -1,4 +1,6 @@
-"""A slope beside its control runs: how far it goes and what it leaves, its forces against the water that fails it, and its speed with the times that other rules would give."""
+"""A slope beside its control runs: how far it goes and what it leaves, its forces against the water that fails it, and
+its speed with the times that other rules would give.
+"""
 
 import numpy as np
 from matplotlib.lines import Line2D
@@ -38,8 +40,9 @@ def displacement(series, t0):
 )
 @style.styled
 def with_and_without(cases, path=None, pdf=False):
-    """Slopes beside those whose slip surface does not weaken, or with any other change: above, the way of their centres of mass against time, a thin line for each packing; below, what the first
-    packing of each leaves, its layers by colour, over the initial surface.
+    """Slopes beside those whose slip surface does not weaken, or with any other change: above, the way of their centres
+    of mass against time, a thin line for each packing; below, what the first packing of each leaves, its layers by
+    colour, over the initial surface.
 
     ``cases``: list of (label, [(series, t0 [s]), one a packing], initial Snapshot, final Snapshot, walls).
     """
@@ -88,11 +91,13 @@ def with_and_without(cases, path=None, pdf=False):
 @given.takes(cases=given.cases("(series, times, friction)", given.SERIES, given.TIMES, checks.real("")))
 @style.styled
 def forces_against_water(cases, path=None, pdf=False, toe=None, walls=None):
-    """The force on the backstops and the shear force on the slip surfaces against the height of the water table, from where it begins to rise until the slope accelerates: a thin line for each
-    packing (the paper's section 6.1).
+    """The force on the backstops and the shear force on the slip surfaces against the height of the water table, from
+    where it begins to rise until the slope accelerates: a thin line for each packing (the paper's section 6.1).
 
-    ``cases``: list of (series, times t0 … t5 [s], friction of the slip surface). Dashed, of the mean dry slope: what its equations (19) to (21) say; they hold the friction of the slip surface for used
-    up from the beginning on. ``walls``: a Section, for the names of its walls (those of the paper where it is left out). ``toe``: a :class:`~nonsmooth.measure.toe.Toe`, whose resistance, Rankine's passive limit of the foot, is dotted.
+    ``cases``: list of (series, times t0 … t5 [s], friction of the slip surface). Dashed, of the mean dry slope: what
+    its equations (19) to (21) say; they hold the friction of the slip surface for used up from the beginning on.
+    ``walls``: a Section, for the names of its walls (those of the paper where it is left out). ``toe``: a
+    :class:`~nonsmooth.measure.toe.Toe`, whose resistance, Rankine's passive limit of the foot, is dotted.
     """
     cases = [(series, style.known_times(times), friction) for series, times, friction in cases]
     cases = [one for one in cases if {"t0", "t2"} <= set(one[1])]
@@ -159,10 +164,12 @@ def forces_against_water(cases, path=None, pdf=False, toe=None, walls=None):
 )
 @style.styled
 def speeds(cases, path=None, pdf=False, moving=0.2):
-    """Mean speeds against time from t3 on either side, a thin line for each packing: left, the onset, with the speeds by which t2 may be told and when each is reached for good; right, all of the
-    motion, with the shares of the largest speed by which t5 may be told.
+    """Mean speeds against time from t3 on either side, a thin line for each packing: left, the onset, with the speeds
+    by which t2 may be told and when each is reached for good; right, all of the motion, with the shares of the largest
+    speed by which t5 may be told.
 
-    ``cases``: list of (series, summary), the second with ``times_s``, ``t2_by_speed_s`` and ``t5_by_speed_s`` (:func:`~nonsmooth.measure.characteristic_times.by_threshold`); ``moving``: speed of a slope that moves [m/s].
+    ``cases``: list of (series, summary), the second with ``times_s``, ``t2_by_speed_s`` and ``t5_by_speed_s``
+    (:func:`~nonsmooth.measure.characteristic_times.by_threshold`); ``moving``: speed of a slope that moves [m/s].
     """
     cases = [one for one in cases if one[1]["times_s"]["t3"] is not None]
     if not cases:

@@ -12,8 +12,9 @@ __all__ = ["creep"]
 def creep(panels, path=None):
     """Displacement on a logarithmic axis against time, one panel a joint.
 
-    ``panels``: list of (title, curves), and ``curves`` a list of (label, colour, time [s], displacement down the joint [mm]), arrays of shape (n,).
-    The size of the displacement is drawn, whether down the joint or up, and 1e-6 mm where it is less.
+    ``panels``: list of (title, curves), and ``curves`` a list of (label, colour, time [s], displacement down the joint
+    [mm]), arrays of shape (n,). The size of the displacement is drawn, whether down the joint or up, and 1e-6 mm where
+    it is less.
     """
     fig = style.figure(9.0, 4.2)
     axes = fig.subplots(1, len(panels), sharey=True, squeeze=False)[0]

@@ -1,4 +1,6 @@
-"""A cycle of stress in a sheared sample: curves, and chains of forces before and after the drop (the paper's Figure 6)."""
+"""A cycle of stress in a sheared sample: curves, and chains of forces before and after the drop (the paper's Figure
+6).
+"""
 
 import numpy as np
 from matplotlib.patches import Patch
@@ -14,10 +16,12 @@ BUILD, DROP = "#dcebf7", "#fbd9c0"
 
 @style.styled
 def cycle(series, rows, before, after, words, path=None, pdf=False):
-    """Left: deviator stress, volumetric strain and kinetic energy against axial strain around a cycle; right: forces in the whole sample before and after the drop, to one scale.
+    """Left: deviator stress, volumetric strain and kinetic energy against axial strain around a cycle; right: forces in
+    the whole sample before and after the drop, to one scale.
 
-    ``series``: columns of `laboratory.biaxial.COLUMNS`; ``rows``: the laboratory.cycles.Cycle; ``before``, ``after``: Snapshots at its peak and at its end; ``words``: of the sample.
-    Blue: the stress builds up; orange: it drops. Raises RecordsError for a series without one of the columns.
+    ``series``: columns of `laboratory.biaxial.COLUMNS`; ``rows``: the laboratory.cycles.Cycle; ``before``, ``after``:
+    Snapshots at its peak and at its end; ``words``: of the sample. Blue: the stress builds up; orange: it drops. Raises
+    RecordsError for a series without one of the columns.
     """
     names = ("strain", "volumetric_strain", cycles.ENERGY)
     strain, volume, energy = style.need(series, *names)

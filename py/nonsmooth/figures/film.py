@@ -1,4 +1,6 @@
-"""Pictures one after the other, as a film: fixed artists are drawn once, and a file, MP4 by ffmpeg or GIF by Pillow, is written whole or not at all. Needs no YADE."""
+"""Pictures one after the other, as a film: fixed artists are drawn once, and a file, MP4 by ffmpeg or GIF by Pillow, is
+written whole or not at all. Needs no YADE.
+"""
 
 from __future__ import annotations
 
@@ -18,7 +20,9 @@ LEAST_FPS, MOST_FPS = 0.1, 100  # frames a second: the clock of a GIF has hundre
 
 
 class Stage:
-    """A figure of which most artists stay: those in ``moving`` are drawn anew for each picture, on top of the picture of the others."""
+    """A figure of which most artists stay: those in ``moving`` are drawn anew for each picture, on top of the picture
+    of the others.
+    """
 
     def __init__(self, fig, moving=()):
         self.fig, self.moving, self._fixed = fig, list(moving), None
@@ -55,7 +59,9 @@ class _Writer(_Handed, FFMpegWriter):
 
 
 class _GifWriter(_Handed, PillowWriter):
-    """Keeps pictures with 256 colours, one byte for each pixel; the first, with what stays, gives the colours of all, so that none flickers."""
+    """Keeps pictures with 256 colours, one byte for each pixel; the first, with what stays, gives the colours of all,
+    so that none flickers.
+    """
 
     def setup(self, fig, outfile, dpi=None):
         super().setup(fig, outfile, dpi)
@@ -105,7 +111,9 @@ def named(path):
 
 
 def check(path):
-    """The path of a film that can be made, before anything is computed for it. Raises RecordsError as :func:`named`, and for an MP4 without ffmpeg."""
+    """The path of a film that can be made, before anything is computed for it. Raises RecordsError as :func:`named`,
+    and for an MP4 without ffmpeg.
+    """
     path = named(path)
     if path.suffix.lower() == ".mp4" and missing():
         raise RecordsError(f"{path}: {missing()}; install it, or give a name that ends in .gif, which needs none")
@@ -119,7 +127,8 @@ def check_fps(fps):
 
 
 def write(path, fig, pictures, fps):
-    """Writes ``pictures``, bytes (RGBA) of a figure's canvas, one for each frame, ``fps`` a second; the file is replaced only by a whole one.
+    """Writes ``pictures``, bytes (RGBA) of a figure's canvas, one for each frame, ``fps`` a second; the file is
+    replaced only by a whole one.
 
     Returns None, or a note why there is no file. What ``pictures`` raises goes on.
     """

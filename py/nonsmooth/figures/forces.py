@@ -19,7 +19,9 @@ SKETCHED = {"slip": "DP", "backstop": "FB"}  # names of the paper's walls, where
 
 
 def force_bars(snapshot, chosen, reference, width):
-    """Corners (C, 4, 2) of bars from centre to centre (or to a wall's contact point), ``width`` wide at ``reference``."""
+    """Corners (C, 4, 2) of bars from centre to centre (or to a wall's contact point), ``width`` wide at
+    ``reference``.
+    """
     i, j = snapshot.ci[chosen], snapshot.cj[chosen]
     a = np.column_stack([snapshot.x[i], snapshot.y[i]])
     wall = j < 0
@@ -63,7 +65,9 @@ def _close_up(ax, snapshot, ground, box, reference, width, outline, letter):
 
 
 def _force_scale(ax, reference, width):
-    """Handles of a legend: lines as wide as bars of round forces are in the window ``ax``, which has its place and limits; the largest is not above ``reference``, of ``width`` [m]."""
+    """Handles of a legend: lines as wide as bars of round forces are in the window ``ax``, which has its place and
+    limits; the largest is not above ``reference``, of ``width`` [m].
+    """
     forces = [style.nice(reference)]
     while len(forces) < 3:
         forces.append(style.nice(0.6 * forces[-1]))
@@ -89,9 +93,10 @@ def force_chains(snapshot, walls, path=None, pdf=False, title=None):
     """The slope and the normal forces in its foot (the paper's Figure 8).
 
     ``snapshot``: a :class:`~nonsmooth.records.Snapshot` with contacts. ``walls``: see :mod:`nonsmooth.figures`.
-    Above the whole slope by layers; below two windows at the foot (or at the lowest disk, where none is near it), with bars between the centres of disks that
-    are in contact or bonded over a gap, as wide as the force is large (linear, the same in both windows), compression blue, tension red. Tensile bars have
-    a hairline outline so that small ones can be seen. ``title``: what state it is, as "Initial state"; None: the snapshot's time.
+    Above the whole slope by layers; below two windows at the foot (or at the lowest disk, where none is near it), with
+    bars between the centres of disks that are in contact or bonded over a gap, as wide as the force is large (linear,
+    the same in both windows), compression blue, tension red. Tensile bars have a hairline outline so that small ones
+    can be seen. ``title``: what state it is, as "Initial state"; None: the snapshot's time.
     """
     ground = ground_of(walls)
     if len(snapshot.ci) == 0:
@@ -180,7 +185,9 @@ def _limits(curves, shown):
 
 
 def _own(series, ground):
-    """(name, total normal force, effective one, shear force [N/m]) of each slip surface where some lie one above another; empty where none do, and for a series without columns of each."""
+    """(name, total normal force, effective one, shear force [N/m]) of each slip surface where some lie one above
+    another; empty where none do, and for a series without columns of each.
+    """
     names = ("dp_normal_total_N_per_m", "dp_normal_effective_N_per_m", "dp_shear_N_per_m")
     columns = {wall: [records.column(name, wall) for name in names] for wall in ground.stacked}
     if not all(column in series for of in columns.values() for column in of):
@@ -189,8 +196,9 @@ def _own(series, ground):
 
 
 def _sketch(ax, side, name, back, wet, rise=None, coloured=True):
-    """What the symbols mean: a slope with the forces its walls exert (the inset of Figure 12); ``back``: name of the backstop, empty where there is none; ``rise``: of a water table
-    that is a plane of its own, over its way down the slope, 0 where it is level; ``coloured``: whether a colour is a force's. Names that are no index have no room.
+    """What the symbols mean: a slope with the forces its walls exert (the inset of Figure 12); ``back``: name of the
+    backstop, empty where there is none; ``rise``: of a water table that is a plane of its own, over its way down the
+    slope, 0 where it is level; ``coloured``: whether a colour is a force's. Names that are no index have no room.
     """
     symbol = lambda letter, of: (lambda told: told if " (" not in told else f"${letter}$")(
         style.symbol(letter, of)
@@ -238,12 +246,13 @@ def forces_against_time(series, times, path=None, pdf=False, window=1.0, walls=N
     """Forces on the slip surfaces and the backstops against time (the paper's Figure 12).
 
     ``series``: dict of columns (:func:`nonsmooth.records.read_series`). ``times``: dict t0 to t5 [s], or an object
-    with such ``times``; missing ones are left out. ``walls``: see :mod:`nonsmooth.figures`; without them, they have the paper's names. (a) normal force on the slip
-    surfaces (DP): total, effective, water, and the height of
-    the water table (right axis); (b) shear force on them, normal force on the backstops (FB), and their changes since t0. What a slope has not, a backstop or
-    water, is left out. Of slip surfaces one above another, which bear the same weight, each has lines of its own, without changes. On the left
-    the whole run, on the right the failure and triggering alone (when t1 and t3 are known). Lines are means over
-    ``window`` [s] once the avalanche moves (from t3), every value is drawn pale behind. ``verdict``: what became of the slope, in words.
+    with such ``times``; missing ones are left out. ``walls``: see :mod:`nonsmooth.figures`; without them, they have the
+    paper's names. (a) normal force on the slip surfaces (DP): total, effective, water, and the height of
+    the water table (right axis); (b) shear force on them, normal force on the backstops (FB), and their changes since
+    t0. What a slope has not, a backstop or water, is left out. Of slip surfaces one above another, which bear the same
+    weight, each has lines of its own, without changes. On the left the whole run, on the right the failure and
+    triggering alone (when t1 and t3 are known). Lines are means over ``window`` [s] once the avalanche moves (from t3),
+    every value is drawn pale behind. ``verdict``: what became of the slope, in words.
     """
     time, water, total, effective, pore, shear, back = style.need(
         series, "time_s", "water_m", "dp_normal_total_N_per_m", "dp_normal_effective_N_per_m", "dp_water_N_per_m",

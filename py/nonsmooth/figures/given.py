@@ -54,8 +54,9 @@ CASES = (
 
 
 def cases(each, *parts):
-    """The rule of a list of cases, of which ``each`` is, in words, a tuple of ``parts``: rules or None where anything will do; alone, a part is no tuple. Others than lists and tuples, which
-    can be read but once, are let through as they are."""
+    """The rule of a list of cases, of which ``each`` is, in words, a tuple of ``parts``: rules or None where anything
+    will do; alone, a part is no tuple. Others than lists and tuples, which can be read but once, are let through as
+    they are."""
 
     def fits(case):
         if len(parts) == 1:
@@ -84,7 +85,9 @@ def _are_times(value):
 
 
 def _is_figure(value):
-    """Whether matplotlib writes files of this name: without a suffix it would choose one, and the file would have another name."""
+    """Whether matplotlib writes files of this name: without a suffix it would choose one, and the file would have
+    another name.
+    """
     return value is None or FILE[0](value) and Path(os.fspath(value)).suffix[1:].lower() in _SUFFIXES
 
 

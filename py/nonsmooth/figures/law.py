@@ -1,7 +1,7 @@
 """The law drawn, for teachers: thresholds of a contact, the zone in which a bond lives, the forces of water on a disk.
 
-Sketches of our own of what the paper's Figures 1, 2 and 4 are about (Taboada and Estrada 2009, sections 2.2, 3.4 and 5.4), drawn from the numbers of a
-material and of a slope.
+Sketches of our own of what the paper's Figures 1, 2 and 4 are about (Taboada and Estrada 2009, sections 2.2, 3.4 and
+5.4), drawn from the numbers of a material and of a slope.
 """
 
 import math
@@ -45,11 +45,14 @@ class _State:
 @given.takes(material=given.MATERIAL)
 @style.styled
 def contact_law(material, diameter=2.0, path=None, pdf=False):
-    """The three graphs of a contact, equations (1), (3) and (5), and below them what each threshold is, equations (2), (4) and (6).
+    """The three graphs of a contact, equations (1), (3) and (5), and below them what each threshold is, equations (2),
+    (4) and (6).
 
-    ``material``: a `section.Material`; ``diameter``: ℓ [m]. A material that is bonded has two curves, of a bond and of a touching contact without one; another
-    has the second alone. With ``bonds_close`` a bond has, with a half of its gap closed, a way between touch and its length on which no normal force acts. Sliding and rolling are drawn at the normal force F_a, or 100 kPa times ℓ where there is no cohesion. Forces are those of a slice 1 m thick.
-    Raises UserError where the diameter is not positive.
+    ``material``: a `section.Material`; ``diameter``: ℓ [m]. A material that is bonded has two curves, of a bond and of
+    a touching contact without one; another has the second alone. With ``bonds_close`` a bond has, with a half of its
+    gap closed, a way between touch and its length on which no normal force acts. Sliding and rolling are drawn at the
+    normal force F_a, or 100 kPa times ℓ where there is no cohesion. Forces are those of a slice 1 m thick. Raises
+    UserError where the diameter is not positive.
     """
     if not diameter > 0:
         raise UserError(f"diameter = {diameter:g} m: it must be positive; give the mean diameter of two disks")
@@ -82,7 +85,9 @@ def contact_law(material, diameter=2.0, path=None, pdf=False):
 
 
 def _separation(ax, states, diameter, normal, closes):
-    """Normal force against the velocity at which two bodies part. A bond that ``closes`` is drawn with a half of its gap closed: it comes to touch at one velocity, and to its length at another."""
+    """Normal force against the velocity at which two bodies part. A bond that ``closes`` is drawn with a half of its
+    gap closed: it comes to touch at one velocity, and to its length at another.
+    """
     factor, unit = style.force_unit(normal)
     high = normal / factor
     for name, state in states.items():
@@ -195,8 +200,8 @@ def _cross(ax, title, across, up):
 def bond_zone(material, gap=None, path=None, pdf=False):
     """Which disks are bonded, and the ellipse in which a bond lives; lengths in units of ℓ, true to scale.
 
-    ``material``: a `section.Material`, of which Δ, ε_n and ε_t are taken; ``gap``: δ [ℓ] of the bond that is drawn, 0.6 Δ unless given. Disks i and j have the diameter
-    ℓ. Raises UserError for a gap that is negative or not below Δ.
+    ``material``: a `section.Material`, of which Δ, ε_n and ε_t are taken; ``gap``: δ [ℓ] of the bond that is drawn, 0.6
+    Δ unless given. Disks i and j have the diameter ℓ. Raises UserError for a gap that is negative or not below Δ.
     """
     reach = material.bond_creation_distance
     gap = 0.6 * reach if gap is None else gap
@@ -298,13 +303,16 @@ def _measure(ax, a, b, colour):
 )
 @style.styled
 def water_forces(dip, diameter=2.0, density=2500.0, unit_weight=9810.0, gravity=9.81, path=None, pdf=False):
-    """Weight of a disk below a water table that is parallel to the slope, the forces of the water on it, and how these add up: F_p = F_b + F_s.
+    """Weight of a disk below a water table that is parallel to the slope, the forces of the water on it, and how these
+    add up: F_p = F_b + F_s.
 
-    The buoyancy F_b = γ_w V points upwards, the seepage force F_s = γ_w V sin β down the slope; so F_p = γ_w V cos β is normal to the slope (equations (7) and (18)), with
-    V = π d²/4 of a slice 1 m thick. Arrows of one panel are true to scale, the slope is not.
+    The buoyancy F_b = γ_w V points upwards, the seepage force F_s = γ_w V sin β down the slope; so F_p = γ_w V cos β is
+    normal to the slope (equations (7) and (18)), with V = π d²/4 of a slice 1 m thick. Arrows of one panel are true to
+    scale, the slope is not.
 
-    ``dip``: β [degrees], positive where the slope falls to the right; ``diameter`` d [m]; ``density`` of the disk [kg/m³]; ``unit_weight`` γ_w [N/m³]; ``gravity`` [m/s²].
-    Raises UserError for a dip that is no slope's and for numbers that are not positive.
+    ``dip``: β [degrees], positive where the slope falls to the right; ``diameter`` d [m]; ``density`` of the disk
+    [kg/m³]; ``unit_weight`` γ_w [N/m³]; ``gravity`` [m/s²]. Raises UserError for a dip that is no slope's and for
+    numbers that are not positive.
     """
     if not -90 < dip < 90:
         raise UserError(
@@ -351,7 +359,9 @@ def _named(ax, name, place, ha, va="center"):
 
 
 def _beta(ax, vertex, radius, beta, middle):
-    """The angle β [degrees] at a point, between two lines whose middle has the direction ``middle`` [degrees]; nothing where it is zero."""
+    """The angle β [degrees] at a point, between two lines whose middle has the direction ``middle`` [degrees]; nothing
+    where it is zero.
+    """
     if beta > 0:
         turn = math.radians(middle)
         ax.add_patch(
@@ -376,7 +386,9 @@ def _beta(ax, vertex, radius, beta, middle):
 
 
 def _slope(ax, dip, along, normal, forces):
-    """The disk in its slope: the longest arrow is four units long, the water table stands at TABLE above the plane, the surface at 8."""
+    """The disk in its slope: the longest arrow is four units long, the water table stands at TABLE above the plane, the
+    surface at 8.
+    """
     side, beta = -1.0 if dip < 0 else 1.0, abs(dip)
     low, high = -5.0, 5.0  # down the slope
     at = lambda s, n: s * along + n * normal  # noqa: E731

@@ -1,4 +1,6 @@
-"""Columns of disks that lay across the layers of a slope, followed through its motion: what is folded, sheared, and not mixed."""
+"""Columns of disks that lay across the layers of a slope, followed through its motion: what is folded, sheared, and not
+mixed.
+"""
 
 import numpy as np
 from matplotlib.colors import to_rgba_array
@@ -16,7 +18,9 @@ PALE = 0.45  # of a layer's colour that is left where no column is
 
 
 def columns(start, walls, number=16):
-    """Which column each disk of a Snapshot lies in, of ``number`` thin ones normal to the slope at equal distances along it, (n,) int; −1 for none."""
+    """Which column each disk of a Snapshot lies in, of ``number`` thin ones normal to the slope at equal distances
+    along it, (n,) int; −1 for none.
+    """
     ground = ground_of(walls)
     down = np.array(getattr(walls, "downslope", (ground.side, 0.0)))
     along = start.x * down[0] + start.y * down[1]
@@ -31,9 +35,11 @@ def columns(start, walls, number=16):
 @given.takes(cases=given.LABELLED, section=given.SECTION)
 @style.styled
 def markers(cases, section, path=None, pdf=False, number=16):
-    """What becomes of thin columns of disks that lay across the layers: tilted and bent they show shear, turned over with the layers they show folds, scattered they would show mixing.
+    """What becomes of thin columns of disks that lay across the layers: tilted and bent they show shear, turned over
+    with the layers they show folds, scattered they would show mixing.
 
-    ``cases``: list of (label, Snapshot), the first that of the slope at rest, as "t0", "t4", "t5", one panel each; ``section``: a Section; ``number``: of columns, normal to the slope. Layers are pale, lowest darkest.
+    ``cases``: list of (label, Snapshot), the first that of the slope at rest, as "t0", "t4", "t5", one panel each;
+    ``section``: a Section; ``number``: of columns, normal to the slope. Layers are pale, lowest darkest.
     """
     cases, ground = list(cases), ground_of(section)
     if not cases:

@@ -1,4 +1,6 @@
-"""Videos of any scene: frames that are kept while a script runs, drawn with one view and one scale of forces over all of them."""
+"""Videos of any scene: frames that are kept while a script runs, drawn with one view and one scale of forces over all
+of them.
+"""
 
 from __future__ import annotations
 
@@ -28,15 +30,18 @@ _recorders = weakref.WeakValueDictionary()
 
 
 class Recorder:
-    """Keeps frames of the scene in a YADE ``O`` while it runs, for a video. :func:`record` and :func:`recording` make one.
+    """Keeps frames of the scene in a YADE ``O`` while it runs, for a video. :func:`record` and :func:`recording` make
+    one.
 
-    ``period`` [s] of the scene's own time between two frames; None: each step at first. ``most``: how many frames are kept, and ``memory``: how many bytes; where they do not
-    suffice every second frame is dropped and the period doubled, so that a run of any length has a video of some hundred frames. Where the scene's time goes back, as
-    after ``O.reset()``, the film begins anew.
+    ``period`` [s] of the scene's own time between two frames; None: each step at first. ``most``: how many frames are
+    kept, and ``memory``: how many bytes; where they do not suffice every second frame is dropped and the period
+    doubled, so that a run of any length has a video of some hundred frames. Where the scene's time goes back, as after
+    ``O.reset()``, the film begins anew.
 
-    ``frames``: list of (time [s], :class:`.scene_arrays.Scene`). ``engine``: a PyRunner that keeps them, for O.engines. As a context manager with a ``path``: writes the video
-    at the end of the block, and nothing where the block raises. In a notebook it shows the video. Raises RecordsError for numbers that cannot be used and for a path that no
-    video has.
+    ``frames``: list of (time [s], :class:`.scene_arrays.Scene`). ``engine``: a PyRunner that keeps them, for O.engines.
+    As a context manager with a ``path``: writes the video at the end of the block, and nothing where the block raises.
+    In a notebook it shows the video. Raises RecordsError for numbers that cannot be used and for a path that no video
+    has.
     """
 
     def __init__(self, O, period=None, most=MOST, memory=MEMORY, path=None, **drawn):
@@ -102,14 +107,18 @@ class Recorder:
         self.engine.iterPeriod = max(1, round(min(1e6, (self._next - now) / step))) if step > 0 else 1
 
     def _keep(self, now):
-        """Keeps the scene as that of the time ``now``, if a frame is due, to half a step, or the scene has begun anew."""
+        """Keeps the scene as that of the time ``now``, if a frame is due, to half a step, or the scene has begun
+        anew.
+        """
         if now >= self._next - 0.5 * abs(self._O.dt) or (self.frames and now < self.frames[-1][0]):
             self.take(now)
 
     def write(self, path=None, fps=FPS):
-        """Writes the frames, and the scene as it stands at last, as a video, ``fps`` frames a second, from 0.1 to 100; ``path``: ends in .mp4 (by ffmpeg) or .gif. Returns the path.
+        """Writes the frames, and the scene as it stands at last, as a video, ``fps`` frames a second, from 0.1 to 100;
+        ``path``: ends in .mp4 (by ffmpeg) or .gif. Returns the path.
 
-        The file is replaced only by a whole one. Raises RecordsError where there is no frame, while the scene runs, and for a file that cannot be made.
+        The file is replaced only by a whole one. Raises RecordsError where there is no frame, while the scene runs, and
+        for a file that cannot be made.
         """
         path = film.check(self.path if path is None else path)
         if self._O.running:
@@ -170,13 +179,15 @@ def _drawn(options):
 
 
 def record(O, path=None, period=None, **options):
-    """Keeps frames of whatever is run from now on: appends a recorder's engine to O.engines and returns the :class:`Recorder`::
+    """Keeps frames of whatever is run from now on: appends a recorder's engine to O.engines and returns the
+    :class:`Recorder`::
 
         with figures.record(O, "fall.mp4", period=0.02):
             O.run(5000, wait=True)
 
-    or, without ``with``, ``film = figures.record(O)`` before and ``film.write("fall.mp4")`` after the run. ``path``, ``period`` and ``options`` (``most``, ``memory``; ``forces``, ``view``
-    and ``colours`` of :func:`draw`) are those of :class:`Recorder`. Raises RecordsError, before anything is run.
+    or, without ``with``, ``film = figures.record(O)`` before and ``film.write("fall.mp4")`` after the run. ``path``,
+    ``period`` and ``options`` (``most``, ``memory``; ``forces``, ``view`` and ``colours`` of :func:`draw`) are those of
+    :class:`Recorder`. Raises RecordsError, before anything is run.
     """
     made = Recorder(O, period, path=path, **options)
     made.take()
@@ -186,7 +197,9 @@ def record(O, path=None, period=None, **options):
 
 @contextlib.contextmanager
 def recording(O, path=None, period=None, **options):
-    """The same for a block that makes O.engines itself, or several times, as a whole script does: the engine is appended whenever a run begins."""
+    """The same for a block that makes O.engines itself, or several times, as a whole script does: the engine is
+    appended whenever a run begins.
+    """
     kind, made = type(O), Recorder(O, period, path=path, **options)
     usual = {name: getattr(kind, name) for name in ("run", "step")}
 
@@ -209,13 +222,17 @@ def recording(O, path=None, period=None, **options):
 
 
 def animate(O, path=None, seconds=1.0, frames=None, period=None, fps=FPS, **drawn):
-    """Runs a scene for ``seconds`` [s] of its own time and makes a video of it: ``figures.animate(O, "fall.mp4", seconds=3)``.
+    """Runs a scene for ``seconds`` [s] of its own time and makes a video of it:
+    ``figures.animate(O, "fall.mp4", seconds=3)``.
 
-    ``frames``: how many, of equal distance in time, the first one not counted (default 100), or ``period`` [s]: the time between two of them; there are no more
-    frames than steps. ``fps``: frames a second in the video, from 0.1 to 100. ``forces``, ``view``, ``colours``: as of :func:`draw`; the view and the scale of forces are those of all frames together.
+    ``frames``: how many, of equal distance in time, the first one not counted (default 100), or ``period`` [s]: the
+    time between two of them; there are no more frames than steps. ``fps``: frames a second in the video, from 0.1
+    to 100. ``forces``, ``view``, ``colours``: as of :func:`draw`; the view and the scale of forces are those of all
+    frames together.
 
-    Returns the ``path``, which ends in .mp4 (by ffmpeg) or .gif; without one a :class:`Recorder`, which a notebook shows as a video. Raises RecordsError, before a step is
-    made, for what cannot be used, and StepError where an engine refuses a step.
+    Returns the ``path``, which ends in .mp4 (by ffmpeg) or .gif; without one a :class:`Recorder`, which a notebook
+    shows as a video. Raises RecordsError, before a step is made, for what cannot be used, and StepError where an engine
+    refuses a step.
     """
     if frames is not None and period is not None:
         raise RecordsError(
@@ -253,8 +270,9 @@ def animate(O, path=None, seconds=1.0, frames=None, period=None, fps=FPS, **draw
 
 @style.with_settings
 def write(frames, path, fps=FPS, words=None, bar=None, **drawn):
-    """Writes ``frames``, a list of (time [s], :class:`.scene_arrays.Scene`), as the video ``path``; ``words``: of a time and a scene, said beside the time; ``bar``: a ScalarMappable that the colours are
-    of, and what it shows. Others: as of :func:`animate`.
+    """Writes ``frames``, a list of (time [s], :class:`.scene_arrays.Scene`), as the video ``path``; ``words``: of a
+    time and a scene, said beside the time; ``bar``: a ScalarMappable that the colours are of, and what it shows.
+    Others: as of :func:`animate`.
 
     Raises RecordsError where there is no frame, and for a file that cannot be made.
     """

@@ -27,8 +27,9 @@ def energy(series, path=None, times=None, pdf=False, limit=0.02):
     """Where the energy goes, against time, and what the balance leaves over.
 
     ``series``: dict of columns. Above: changes since the first row of kinetic and potential energy, work of the water,
-    losses and correction energy per metre of width; below: the error of the balance in per cent of all that the run turns over
-    (:func:`~nonsmooth.measure.energy.balance_error`) with ``limit`` as a dashed line. ``times``: t0 to t5 to mark.
+    losses and correction energy per metre of width; below: the error of the balance in per cent of all that the run
+    turns over (:func:`~nonsmooth.measure.energy.balance_error`) with ``limit`` as a dashed line. ``times``: t0 to t5 to
+    mark.
     """
     lines = (
         ("energy_potential_J", "potential", "blue", "-"),
@@ -76,8 +77,8 @@ def energy(series, path=None, times=None, pdf=False, limit=0.02):
 def solver(series, path=None, times=None, pdf=False):
     """Sweeps, residual and overlaps of the contact solver against time.
 
-    ``series``: dict of columns. Overlaps in per cent of the mean diameter with the project's limits (2 % worst, 0.1 % mean) as lines.
-    ``times``: t0 to t5 to mark.
+    ``series``: dict of columns. Overlaps in per cent of the mean diameter with the project's limits (2 % worst, 0.1 %
+    mean) as lines. ``times``: t0 to t5 to mark.
     """
     time, sweeps, residual, tolerance, worst, mean = style.need(
         series, "time_s", "iterations", "residual", "tolerance", "overlap_worst_rel", "overlap_mean_rel"

@@ -1,7 +1,7 @@
 """Snapshots as files for ParaView: disks, contacts and walls, and the list of a run's frames. Written by meshio.
 
-In ParaView open ``avalanche.pvd``, choose the representation *Point Gaussian* (or the filter *Glyph*, sphere) with the scale array
-``radius``, and colour by ``layer``, ``speed``, ``wet``, ``released`` or ``weakened``.
+In ParaView open ``avalanche.pvd``, choose the representation *Point Gaussian* (or the filter *Glyph*, sphere) with the
+scale array ``radius``, and colour by ``layer``, ``speed``, ``wet``, ``released`` or ``weakened``.
 """
 
 from __future__ import annotations
@@ -47,8 +47,9 @@ def _write(path, points, cells, point_data=None, cell_data=None):
 
 @given.takes(snapshot=given.snapshot())
 def write_disks(snapshot, path):
-    """One point a disk, with ``radius`` [m] and, where the snapshot has them, ``layer`` (0 lowest), ``velocity`` [m/s], ``speed`` [m/s], ``angle`` [rad], ``wet``, ``released``,
-    ``ever_wet`` and ``weakened`` (on any wall or interface); see :class:`.records.Snapshot`."""
+    """One point a disk, with ``radius`` [m] and, where the snapshot has them, ``layer`` (0 lowest), ``velocity`` [m/s],
+    ``speed`` [m/s], ``angle`` [rad], ``wet``, ``released``, ``ever_wet`` and ``weakened`` (on any wall or interface);
+    see :class:`.records.Snapshot`."""
     s = snapshot
     data = {"radius": s.r}
     if s.layer is not None:
@@ -68,8 +69,8 @@ def write_disks(snapshot, path):
 
 @given.takes(snapshot=given.snapshot("ci"))
 def write_contacts(snapshot, path):
-    """One line a contact, from centre to centre or from centre to wall, with ``normal`` and ``tangential`` force [N/m], compression
-    positive, and ``bonded``."""
+    """One line a contact, from centre to centre or from centre to wall, with ``normal`` and ``tangential`` force [N/m],
+    compression positive, and ``bonded``."""
     s = snapshot
     a = np.column_stack([s.x[s.ci], s.y[s.ci]])
     other = np.where(s.cj >= 0, s.cj, 0)
@@ -82,7 +83,9 @@ def write_contacts(snapshot, path):
 
 @given.takes(breaks=given.BREAKS)
 def write_breaks(breaks, path):
-    """One point a broken bond, with ``time`` [s] and ``mode`` (1 tension, 2 shear, 3 torque, 4 mixed); ``breaks`` as records.read_breaks gives it."""
+    """One point a broken bond, with ``time`` [s] and ``mode`` (1 tension, 2 shear, 3 torque, 4 mixed); ``breaks`` as
+    records.read_breaks gives it.
+    """
     mode = np.array([BREAK_MODES.index(word) for word in breaks["mode"]], np.int32)
     points = np.column_stack([breaks["x_m"], breaks["y_m"]])
     return _write(
@@ -106,8 +109,9 @@ def write_walls(section, path):
 
 @given.takes(O=checks.has("bodies interactions", "give YADE's O"))
 def write_scene_walls(O, path):
-    """The walls of a scene as they stand, for users of VTKRecorder, which knows no Segment and no Arc: one line for each edge, see :mod:`.scene_arrays`; a Wall, which has no ends,
-    across all that is there and a tenth beyond. Raises RecordsError for a scene without disks."""
+    """The walls of a scene as they stand, for users of VTKRecorder, which knows no Segment and no Arc: one line for
+    each edge, see :mod:`.scene_arrays`; a Wall, which has no ends, across all that is there and a tenth beyond. Raises
+    RecordsError for a scene without disks."""
     scene = read_scene(O)
     places = np.concatenate(
         [
@@ -128,8 +132,8 @@ def write_scene_walls(O, path):
 
 @given.takes(entries=given.ENTRIES)
 def write_collection(entries, path):
-    """The .pvd file that shows files in the course of time; ``entries``: (time [s], path) pairs in one folder or below ``path``'s. Raises RecordsError for a time that
-    is no finite number, and for a file that is not there."""
+    """The .pvd file that shows files in the course of time; ``entries``: (time [s], path) pairs in one folder or below
+    ``path``'s. Raises RecordsError for a time that is no finite number, and for a file that is not there."""
     path = Path(path)
     for k, (time, file) in enumerate(entries):
         checks.number(f"entries[{k}]: time", time, RecordsError, "give seconds, a finite number")
@@ -148,8 +152,9 @@ def write_collection(entries, path):
 
 
 def write_run(folder, section, frames, progress=None):
-    """All of a run for ParaView into ``folder``/vtk: ``frames``, a list of (time [s], snapshot file), as ``avalanche.pvd``; walls; broken
-    bonds; and the contacts of t0 and the end where those were recorded. Returns the path of the .pvd file."""
+    """All of a run for ParaView into ``folder``/vtk: ``frames``, a list of (time [s], snapshot file), as
+    ``avalanche.pvd``; walls; broken bonds; and the contacts of t0 and the end where those were recorded. Returns the
+    path of the .pvd file."""
     folder = Path(folder)
     out = folder / "vtk"
     entries = []

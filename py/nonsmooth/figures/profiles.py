@@ -25,7 +25,9 @@ LEAST = 0.35  # of the panel's height that a close-up takes
 
 
 def _room(cases, ground, view):
-    """Limits of the panels, and the close-up's box (left, bottom, width, height) as shares of a panel, in the sky: above all disks of all times."""
+    """Limits of the panels, and the close-up's box (left, bottom, width, height) as shares of a panel, in the sky:
+    above all disks of all times.
+    """
     x0, x1, y0, y1 = view
     left, right = INSET if ground.side > 0 else (1 - INSET[1], 1 - INSET[0])
     a, b = x0 + left * (x1 - x0), x0 + right * (x1 - x0)
@@ -85,10 +87,10 @@ def snapshots(cases, walls, path=None, pdf=False, close_up=True):
     """The slope at successive times, one below the other (the paper's Figure 13).
 
     ``cases``: list of (label, :class:`~nonsmooth.records.Snapshot`), labels such as "t0". Dry disks ochre, disks that
-    feel pore pressure blue, those that were wet and have been released pink, shades alternating with the layers; the water table as a dashed line; of
-    slip surfaces the part whose disks have passed D_c red, where the snapshots tell (:mod:`~nonsmooth.measure.weakening`).
-    All panels have the same limits and scale; ``close_up`` adds the foot of the slope, enlarged, to each, where the
-    shear bands of the failure appear.
+    feel pore pressure blue, those that were wet and have been released pink, shades alternating with the layers; the
+    water table as a dashed line; of slip surfaces the part whose disks have passed D_c red, where the snapshots tell
+    (:mod:`~nonsmooth.measure.weakening`). All panels have the same limits and scale; ``close_up`` adds the foot of the
+    slope, enlarged, to each, where the shear bands of the failure appear.
     """
     cases, ground = list(cases), ground_of(walls)
     if not cases:
@@ -154,7 +156,8 @@ def deposit(snapshot, initial, walls, path=None, pdf=False):
     """The deposit with its layers over the initial profile.
 
     ``snapshot``, ``initial``: the final and the first :class:`~nonsmooth.records.Snapshot`. Annotated: the greatest
-    vertical thickness (:func:`~nonsmooth.measure.surface.deposit_profile`), the travel of the front (:func:`~nonsmooth.measure.fronts.front`) and of the centre of mass.
+    vertical thickness (:func:`~nonsmooth.measure.surface.deposit_profile`), the travel of the front
+    (:func:`~nonsmooth.measure.fronts.front`) and of the centre of mass.
     """
     ground = ground_of(walls)
     x0, x1, y0, y1 = style.view([snapshot, initial], ground)

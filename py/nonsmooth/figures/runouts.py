@@ -22,8 +22,9 @@ FIRST_AND_LAST = given.cases(
 def runouts(cases, walls, path=None, pdf=False):
     """Where masses have come to rest, in panels of one scale.
 
-    ``cases``: list of (label, :class:`~nonsmooth.records.Snapshot` of the beginning, and of the end); ``walls``: see :mod:`nonsmooth.figures`. Disks have the colours of
-    their layers; dotted the front of the mass before and after, with its travel. Raises RecordsError where there is no case.
+    ``cases``: list of (label, :class:`~nonsmooth.records.Snapshot` of the beginning, and of the end); ``walls``: see
+    :mod:`nonsmooth.figures`. Disks have the colours of their layers; dotted the front of the mass before and after,
+    with its travel. Raises RecordsError where there is no case.
     """
     cases, ground = list(cases), ground_of(walls)
     if not cases:

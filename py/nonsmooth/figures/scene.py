@@ -26,10 +26,12 @@ COLOURS = ("bodies", "materials")
 
 
 class Look:
-    """What all pictures of one scene share, from ``scenes``, the times at which it is drawn: the limits, the scale of forces, and where colours come from.
+    """What all pictures of one scene share, from ``scenes``, the times at which it is drawn: the limits, the scale of
+    forces, and where colours come from.
 
-    ``forces``, ``view``, ``colours``: as of :func:`draw`. ``box``: the limits (x0, x1, y0, y1) [m], with room for the scale below; ``reference`` [N]: the force whose bar is ``width``
-    [m] wide, None where there is no force. Raises RecordsError for a view and for colours that cannot be used.
+    ``forces``, ``view``, ``colours``: as of :func:`draw`. ``box``: the limits (x0, x1, y0, y1) [m], with room for the
+    scale below; ``reference`` [N]: the force whose bar is ``width`` [m] wide, None where there is no force. Raises
+    RecordsError for a view and for colours that cannot be used.
     """
 
     def __init__(self, scenes, forces=True, view=None, colours=None):
@@ -61,7 +63,9 @@ class Look:
 
 
 def _box(scenes):
-    """Limits around all disks at all times that can move, with those near them that cannot, as of a long floor; around all where none can move."""
+    """Limits around all disks at all times that can move, with those near them that cannot, as of a long floor; around
+    all where none can move.
+    """
     scenes = [s for s in scenes if np.isfinite(s.x).all() and np.isfinite(s.y).all()]
     if not scenes:
         raise RecordsError("places of disks are not finite numbers; the scene cannot be drawn")
@@ -122,7 +126,9 @@ def paint(ax, scene, look):
 
 
 def scales(ax, look, size=8.5):
-    """The scale of lengths in the lower right corner of the axes, and that of forces in the left one, in letters of ``size`` points: bars of a round force, as wide as they are in the picture."""
+    """The scale of lengths in the lower right corner of the axes, and that of forces in the left one, in letters of
+    ``size`` points: bars of a round force, as wide as they are in the picture.
+    """
     style.scale_bar(ax, 0.97, 0.02, 0.2)
     if not look.signs:
         return
@@ -145,13 +151,16 @@ def scales(ax, look, size=8.5):
 @given.takes(O=given.DRAWN)
 @style.styled
 def draw(O, path=None, pdf=False, ax=None, forces=True, view=None, colours=None):
-    """The scene of any script in one line, ``figures.draw(O, "scene.png")``: disks, walls black, bonds thin lines, and with ``forces`` bars from centre to centre, as wide as the
-    normal force is large: blue compression, red tension, with their scale in the left corner.
+    """The scene of any script in one line, ``figures.draw(O, "scene.png")``: disks, walls black, bonds thin lines, and
+    with ``forces`` bars from centre to centre, as wide as the normal force is large: blue compression, red tension,
+    with their scale in the left corner.
 
-    ``O``: YADE's, or a scene_arrays.Scene; ``ax``: axes to draw on, of a figure of one's own, which is then returned and not written. ``view``: limits (x0, x1, y0, y1) [m]; None: around all disks. ``colours``: "bodies",
-    the colours that the bodies have (``shape.color``), paler where forces are drawn on them; "materials", a colour for each material, and grey for disks that cannot move; None:
-    those of the bodies where they have been chosen (see :func:`nonsmooth.scene_arrays.read`), else those of the materials. :func:`animate` makes a video.
-    Raises RecordsError for a scene without disks, and for a view or colours that cannot be used.
+    ``O``: YADE's, or a scene_arrays.Scene; ``ax``: axes to draw on, of a figure of one's own, which is then returned
+    and not written. ``view``: limits (x0, x1, y0, y1) [m]; None: around all disks. ``colours``: "bodies", the colours
+    that the bodies have (``shape.color``), paler where forces are drawn on them; "materials", a colour for each
+    material, and grey for disks that cannot move; None: those of the bodies where they have been chosen (see
+    :func:`nonsmooth.scene_arrays.read`), else those of the materials. :func:`animate` makes a video. Raises
+    RecordsError for a scene without disks, and for a view or colours that cannot be used.
     """
     scene = read(O)
     look = Look([scene], forces, view, colours)

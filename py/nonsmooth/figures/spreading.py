@@ -17,11 +17,14 @@ FAST = 0.8  # √(g H₀), the end of the colours
 
 @style.styled
 def profiles(columns, path=None, pdf=False):
-    """A row for each aspect ratio: the column of one seed while it spreads, by speed, with the border of what rests, and profiles of the mean speed at three places behind the tip.
+    """A row for each aspect ratio: the column of one seed while it spreads, by speed, with the border of what rests,
+    and profiles of the mean speed at three places behind the tip.
 
-    ``columns``: list of dictionaries with ``aspect``; ``seeds``: how many; ``rows``: of heaps.profiles.over_runs; ``shown``: number of the row that the picture is of; ``look``: a
-    heaps.profiles.SpeedSpan of one seed, ``r`` [m], ``width``: L₀ [m], ``speed``: √(g H₀) [m/s] of it; and ``border``: places from the wall and heights [m] of the border, arrays (n,).
-    Lines: means over seeds, with their 95 % interval; dashes of the same colour: the border. Raises RecordsError without columns.
+    ``columns``: list of dictionaries with ``aspect``; ``seeds``: how many; ``rows``: of heaps.profiles.over_runs;
+    ``shown``: number of the row that the picture is of; ``look``: a heaps.profiles.SpeedSpan of one seed, ``r`` [m],
+    ``width``: L₀ [m], ``speed``: √(g H₀) [m/s] of it; and ``border``: places from the wall and heights [m] of the
+    border, arrays (n,). Lines: means over seeds, with their 95 % interval; dashes of the same colour: the border.
+    Raises RecordsError without columns.
     """
     if not columns:
         raise RecordsError("there are no columns to draw profiles of; give one or more")

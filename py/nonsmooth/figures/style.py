@@ -123,7 +123,9 @@ def figure(width, height, **options):
 
 
 def styled(function):
-    """Run a figure function under this project's settings, see :func:`with_settings`. Raises RecordsError, before anything is drawn, for a ``path`` that no figure can have."""
+    """Run a figure function under this project's settings, see :func:`with_settings`. Raises RecordsError, before
+    anything is drawn, for a ``path`` that no figure can have.
+    """
     return checks.takes(RecordsError, path=PATH)(with_settings(function))
 
 
@@ -141,7 +143,9 @@ def with_settings(function):
 
 
 def save(fig, path=None, pdf=False, dpi=170):
-    """Write the PNG (and a PDF beside it), whole or not at all; returns the PNG's path. Without one nothing is written, and the figure is returned."""
+    """Write the PNG (and a PDF beside it), whole or not at all; returns the PNG's path. Without one nothing is written,
+    and the figure is returned.
+    """
     if path is None:
         return fig
     path = Path(path)
@@ -194,7 +198,9 @@ def length_unit(extent):
 
 
 def length(value, extent, digits=0):
-    """A length [m] with the unit of a picture ``extent`` [m] wide, to a three-hundredth of its width and ``digits`` more."""
+    """A length [m] with the unit of a picture ``extent`` [m] wide, to a three-hundredth of its width and ``digits``
+    more.
+    """
     factor, unit = length_unit(extent)
     needed = math.ceil(math.log10(_TOLD_APART / max(factor * extent, 1e-9)))
     return f"{factor * value:,.{digits + max(0, needed)}f} {unit}"
@@ -222,7 +228,9 @@ def layer_colours(layer):
 
 
 def state_colours(snapshot):
-    """RGBA (N, 4): ochre, wet disks blue, those that were wet and have been released pink, each in two shades that alternate with the layers."""
+    """RGBA (N, 4): ochre, wet disks blue, those that were wet and have been released pink, each in two shades that
+    alternate with the layers.
+    """
     state = np.where(snapshot.released, 2, np.where(snapshot.wet, 1, 0))
     return to_rgba_array(DRY + WET + RELEASED)[2 * state + snapshot.layer % 2]
 
@@ -240,10 +248,12 @@ def draw_disks(ax, snapshot, colours, mask=slice(None), edge="none", width=0.0, 
 
 
 def draw_walls(ax, ground, named=None, size=9.5, width=1.6, apart=False):
-    """Walls as lines with the ground below them filled, to the sides of the picture, and the names of those whose role is in ``named`` (all where None) beside them; ``apart``: where
-    they do not cover each other nor what is written there already, and without those that have no such place.
+    """Walls as lines with the ground below them filled, to the sides of the picture, and the names of those whose role
+    is in ``named`` (all where None) beside them; ``apart``: where they do not cover each other nor what is written
+    there already, and without those that have no such place.
 
-    ``ground``: a :class:`~nonsmooth.measure.ground.Ground`. Returns the artists of interfaces between layers, which lie over the disks.
+    ``ground``: a :class:`~nonsmooth.measure.ground.Ground`. Returns the artists of interfaces between layers, which lie
+    over the disks.
     """
     x0, x1 = ax.get_xlim()
     y0, y1 = ax.get_ylim()
@@ -278,8 +288,9 @@ def _written(ax):
 
 
 def _name_wall(ax, wall, side, box, size, taken=None):
-    """Write a wall's name below the middle of its visible part, or beside it where it stands upright; returns it, None where so little of the wall is seen that it has none. ``taken``: boxes
-    that it must not cover, to which its own is added: then it may stand elsewhere along the wall, and has no name without such a place.
+    """Write a wall's name below the middle of its visible part, or beside it where it stands upright; returns it, None
+    where so little of the wall is seen that it has none. ``taken``: boxes that it must not cover, to which its own is
+    added: then it may stand elsewhere along the wall, and has no name without such a place.
     """
     x0, x1, y0, y1 = box
     leg = np.r_[0, np.cumsum(np.hypot(*np.diff(wall.vertices, axis=0).T))]
@@ -321,7 +332,9 @@ def _wall_name(ax, wall, side, place, size):
 
 
 def draw_weakened(ax, ground, snapshot):
-    """The parts of walls and interfaces that have weakened, as thick lines; whether anything here can weaken, which a snapshot of an earlier version does not tell."""
+    """The parts of walls and interfaces that have weakened, as thick lines; whether anything here can weaken, which a
+    snapshot of an earlier version does not tell.
+    """
     if snapshot.weakened is None or not ground.weakening:
         return False
     for column, wall in ground.weakening.items():
@@ -374,8 +387,9 @@ def scale_bar(ax, x=0.97, y=0.07, share=0.2):
 
 
 def water_table(ax, ground, height):
-    """Points (n, 2) [m] of the water table in a picture: its plane moved by ``height`` [m] along its normal. A plane of its own, as a reservoir's, goes on to the sides of the picture, and is
-    left out (NaN) where it is in the ground below the walls. None where no plane is known."""
+    """Points (n, 2) [m] of the water table in a picture: its plane moved by ``height`` [m] along its normal. A plane of
+    its own, as a reservoir's, goes on to the sides of the picture, and is left out (NaN) where it is in the ground
+    below the walls. None where no plane is known."""
     points = ground.water_points(height)
     if points is None or ground.table_slope is None:
         return points
@@ -394,7 +408,9 @@ def water_line(ax, ground, height, **options):
 
 
 def shade_phases(ax, times, names=False):
-    """Colour the phases between the characteristic times behind the curves; optionally write their names. The motion of a slope that has no t3 begins at t2."""
+    """Colour the phases between the characteristic times behind the curves; optionally write their names. The motion of
+    a slope that has no t3 begins at t2.
+    """
     t = known_times(times)
     x0, x1 = ax.get_xlim()
     for first, last, name, colour in PHASES if "t3" in t else (*PHASES, ("t2", *PHASES[-1][1:])):
@@ -432,8 +448,8 @@ def mark_times(ax, times, labels=True, gap=0.028):
 
 
 def running_mean(abscissa, values, window):
-    """Mean of ``values`` over the ``window`` centred on each place of ``abscissa``, which rises, in its units; the window shrinks towards both ends, so that
-    it stays centred. Same shape."""
+    """Mean of ``values`` over the ``window`` centred on each place of ``abscissa``, which rises, in its units; the
+    window shrinks towards both ends, so that it stays centred. Same shape."""
     half = np.minimum(window / 2, np.minimum(abscissa - abscissa[0], abscissa[-1] - abscissa)) + 1e-9 * window
     total = np.r_[0.0, np.cumsum(values)]
     a = np.searchsorted(abscissa, abscissa - half, side="left")

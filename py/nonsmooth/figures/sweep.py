@@ -13,7 +13,8 @@ from . import given, style
 
 __all__ = ["MARKERS", "means"]
 
-#: Markers of verdicts (:data:`nonsmooth.studies.slope.verdict.MEANINGS`): filled where the slope moved off, open where it did not.
+#: Markers of verdicts (:data:`nonsmooth.studies.slope.verdict.MEANINGS`): filled where the slope moved off, open where
+#: it did not.
 MARKERS = {
     "failed by water": ("s", True),
     "stood": ("o", False),
@@ -39,11 +40,12 @@ APART = 0.012  # of the axis between verdicts at one value
 @given.takes(rows=given.ROWS, names=given.CASES)
 @style.styled
 def means(rows, key, names, path=None, pdf=False):
-    """Results against the values of ``key``, a panel for each of the ``names``; dots: runs, large markers: means over seeds with their 95 % interval, a kind of marker for each verdict.
-    A panel says which runs have no such result, by their verdicts.
+    """Results against the values of ``key``, a panel for each of the ``names``; dots: runs, large markers: means over
+    seeds with their 95 % interval, a kind of marker for each verdict. A panel says which runs have no such result, by
+    their verdicts.
 
-    ``rows``: of `campaign.means`; those that differ in other keys too are lines of their own. Values that are no numbers stand side by side. Raises RecordsError for no rows, and for a key or
-    a name that they have not.
+    ``rows``: of `campaign.means`; those that differ in other keys too are lines of their own. Values that are no
+    numbers stand side by side. Raises RecordsError for no rows, and for a key or a name that they have not.
     """
     _check(rows, key, names)
     fig = style.figure(PANEL * len(names) + 0.4, HEIGHT)
@@ -137,8 +139,9 @@ def _draw(ax, x, found, look, marker):
 
 
 def _tell_absent(ax, rows, name, lower):
-    """Says how many runs have not this result, what became of them and, where that is known, why; in the middle of a panel where no run has it. Returns how many lines stand
-    below the panel, which begin ``lower`` lines further down."""
+    """Says how many runs have not this result, what became of them and, where that is known, why; in the middle of a
+    panel where no run has it. Returns how many lines stand below the panel, which begin ``lower`` lines further
+    down."""
     without, present = Counter(), 0
     for row in rows:
         for k, value in enumerate(row["numbers"][name]["values"]):
@@ -164,7 +167,9 @@ def _tell_absent(ax, rows, name, lower):
 
 
 def _legend(fig, looks, verdicts):
-    """Colours are of other keys, markers of verdicts; as many beside each other as there is room for. Returns its height [inches]."""
+    """Colours are of other keys, markers of verdicts; as many beside each other as there is room for. Returns its
+    height [inches].
+    """
     longest = int(LABEL * fig.get_figwidth() / PANEL)
     handles = [
         Line2D([], [], color=colour, ls=dash, lw=1.5, label=style.plain(textwrap.fill(label, longest)))

@@ -1,4 +1,6 @@
-"""The toe of a slope while it fails: how far its disks have turned, and the bands that they turned in (the paper's section 6.2)."""
+"""The toe of a slope while it fails: how far its disks have turned, and the bands that they turned in (the paper's
+section 6.2).
+"""
 
 import numpy as np
 from matplotlib.cm import ScalarMappable
@@ -21,9 +23,11 @@ WIDTH, ACROSS = 8.0, 3  # inches of a toe alone; panels side by side
 def toe(before, after, section, path=None, pdf=False, friction_deg=None):
     """The toe by the rotation of its disks between two snapshots, with the bands found in it.
 
-    ``before``, ``after``: Snapshots with the same disks, such as those of t0 and t2; ``section``: a Section; ``friction_deg``: angle of friction of the rock, for the bands of Rankine's
-    passive wedge, left out where it is None. Disks stand where they are in ``after``. Dashed: edges of the bands that :func:`~nonsmooth.measure.toe_bands.find` finds; dotted, through the
-    middles of the stretches that were looked at: Rankine's directions. None where the toe has too few disks.
+    ``before``, ``after``: Snapshots with the same disks, such as those of t0 and t2; ``section``: a Section;
+    ``friction_deg``: angle of friction of the rock, for the bands of Rankine's passive wedge, left out where it is
+    None. Disks stand where they are in ``after``. Dashed: edges of the bands that
+    :func:`~nonsmooth.measure.toe_bands.find` finds; dotted, through the middles of the stretches that were looked at:
+    Rankine's directions. None where the toe has too few disks.
     """
     chosen, _, _, thickness = toe_bands.toe(before, section)
     if chosen.sum() < toe_bands.FEWEST:
@@ -44,8 +48,8 @@ def toe(before, after, section, path=None, pdf=False, friction_deg=None):
 @given.takes(cases=BEFORE_AND_AFTER)
 @style.styled
 def toes(cases, path=None, pdf=False, friction_deg=None):
-    """The toes of several slopes side by side, each as :func:`toe` draws it, with one scale of colours, whatever number of disks they have; bands and Rankine's directions where a toe has disks
-    enough for them.
+    """The toes of several slopes side by side, each as :func:`toe` draws it, with one scale of colours, whatever number
+    of disks they have; bands and Rankine's directions where a toe has disks enough for them.
 
     ``cases``: list of (title, before, after, section), such as one for each packing; the rest as for :func:`toe`.
     """

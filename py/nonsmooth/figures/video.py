@@ -152,10 +152,11 @@ def write_mp4(
 
     ``snapshot_paths``: files of :func:`~nonsmooth.records.write_snapshot` of one run (contacts are not needed); they
     are read one by one. ``walls``: see :mod:`nonsmooth.figures`. ``size``: pixels, even numbers. ``series`` (with
-    ``times``): adds a strip of forces against time with a cursor, means over ``window`` [s] once the avalanche moves. ``progress``: called with (frames done, all
-    frames) after each frame. Returns (path, None), or (None, note) when there is no ffmpeg or it failed; a file that
-    was there before is replaced only by a whole new one. Raises :class:`~nonsmooth.records.RecordsError` for a name, size or number of frames a second (``fps``) that no video can have, if
-    there is no snapshot, one is unreadable, or their numbers of disks differ.
+    ``times``): adds a strip of forces against time with a cursor, means over ``window`` [s] once the avalanche moves.
+    ``progress``: called with (frames done, all frames) after each frame. Returns (path, None), or (None, note) when
+    there is no ffmpeg or it failed; a file that was there before is replaced only by a whole new one. Raises
+    :class:`~nonsmooth.records.RecordsError` for a name, size or number of frames a second (``fps``) that no video can
+    have, if there is no snapshot, one is unreadable, or their numbers of disks differ.
     """
     paths, path, ground = [Path(p) for p in snapshot_paths], film.named(path), ground_of(walls)
     film.check_fps(fps)

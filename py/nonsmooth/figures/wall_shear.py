@@ -11,10 +11,12 @@ MEGA = 1e6
 
 @style.styled
 def slides(walls, path=None, pdf=False):
-    """Shear stress over normal stress against slip, one panel a wall, and strengths against the normal stress for all walls.
+    """Shear stress over normal stress against slip, one panel a wall, and strengths against the normal stress for all
+    walls.
 
-    ``walls``: list of (found, series): a dictionary of `laboratory.wall_shear.strength_of`, and for each of its pressures columns of
-    `laboratory.wall_shear.COLUMNS`. Curves are those of the first block of each wall, dots those of all.
+    ``walls``: list of (found, series): a dictionary of `laboratory.wall_shear.strength_of`, and for each of its
+    pressures columns of `laboratory.wall_shear.COLUMNS`. Curves are those of the first block of each wall, dots those
+    of all.
     """
     names = list(dict.fromkeys(found["material"] for found, _ in walls))
     fig = style.figure(2.6 * len(names) + 6.4, 3.6, layout="constrained")

@@ -1,4 +1,6 @@
-"""How the weakening of slip surfaces spreads along them in the course of time (the paper's section 6.3, paragraph 117)."""
+"""How the weakening of slip surfaces spreads along them in the course of time (the paper's section 6.3, paragraph
+117).
+"""
 
 import numpy as np
 from matplotlib.colors import LinearSegmentedColormap
@@ -18,10 +20,12 @@ SHADES = LinearSegmentedColormap.from_list("weakened", [style.STRONG, style.WEAK
 def weakening(cases, walls, path=None, times=None, pdf=False):
     """Which part of each surface that weakens is weakened, along the surface against time, one panel a surface.
 
-    ``cases``: :class:`~nonsmooth.records.Snapshot` in the course of time, which tell who is ``weakened``; they may be read one by one. ``walls``: a Section. Each
-    column is a snapshot and reaches halfway to its neighbours; its cells are about three mean diameters of the surface, from the upper end, at the top, to the
-    foot. Grey: the disks there have not slipped as far as D_c; red: they have; shades between: a share of them; white: no disk is there. ``times``: t0 to t5
-    to mark; what was long before t1 and the first weakening is left out. See :func:`~nonsmooth.measure.weakening.weakened_share`.
+    ``cases``: :class:`~nonsmooth.records.Snapshot` in the course of time, which tell who is ``weakened``; they may be
+    read one by one. ``walls``: a Section. Each column is a snapshot and reaches halfway to its neighbours; its cells
+    are about three mean diameters of the surface, from the upper end, at the top, to the foot. Grey: the disks there
+    have not slipped as far as D_c; red: they have; shades between: a share of them; white: no disk is there. ``times``:
+    t0 to t5 to mark; what was long before t1 and the first weakening is left out. See
+    :func:`~nonsmooth.measure.weakening.weakened_share`.
     """
     ground, seen, places, shares = ground_of(walls), [], {}, {column: [] for column in ground_of(walls).weakening}
     for snapshot in cases:

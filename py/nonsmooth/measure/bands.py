@@ -1,8 +1,9 @@
 """Shear bands of a sample, from how far its disks have turned (Taboada and Estrada 2009, section 5.2, Figure 9).
 
-Disks in a band turn with it: counterclockwise in the one of two conjugate directions, clockwise in the other. For each sense of turning, the mean
-rotation of strips at all angles and offsets (a Radon transform of the rotation) has its largest value along the band. Its profile across the
-band gives the width at half of the height above what the rest of the sample has.
+Disks in a band turn with it: counterclockwise in the one of two conjugate directions, clockwise in the other. For each
+sense of turning, the mean rotation of strips at all angles and offsets (a Radon transform of the rotation) has its
+largest value along the band. Its profile across the band gives the width at half of the height above what the rest of
+the sample has.
 """
 
 from __future__ import annotations
@@ -21,9 +22,10 @@ ANGLES = np.radians(np.arange(35, 81, 1.0))  # of a band to the horizontal; the 
 
 @dataclass(frozen=True)
 class Band:
-    """``angle_deg`` to the horizontal (negative: rising to the left); ``offset`` [m] from the sample's centre along the normal; ``width`` [d],
-    with d the root of the mean square of the diameters; ``rotation`` [rad]: mean in its core; ``contrast``: that over the mean of the rest; ``antithetic``: of the area of its
-    disks that have turned, the part of those that have turned against it (the paper's antithetic disks, [106]).
+    """``angle_deg`` to the horizontal (negative: rising to the left); ``offset`` [m] from the sample's centre along the
+    normal; ``width`` [d], with d the root of the mean square of the diameters; ``rotation`` [rad]: mean in its core;
+    ``contrast``: that over the mean of the rest; ``antithetic``: of the area of its disks that have turned, the part of
+    those that have turned against it (the paper's antithetic disks, [106]).
     """
 
     angle_deg: float
@@ -35,10 +37,11 @@ class Band:
 
 
 def find(x, y, r, rotation):
-    """The strongest band of each sense of turning: (rising to the right, rising to the left), None where nothing stands out twofold.
+    """The strongest band of each sense of turning: (rising to the right, rising to the left), None where nothing stands
+    out twofold.
 
-    ``x``, ``y``, ``r`` [m], ``rotation`` [rad] of each disk. With the minor stress horizontal, a band that rises to the right slips sinistrally, or
-    counterclockwise.
+    ``x``, ``y``, ``r`` [m], ``rotation`` [rad] of each disk. With the minor stress horizontal, a band that rises to the
+    right slips sinistrally, or counterclockwise.
     """
     d = math.sqrt(np.mean((2 * r) ** 2))
     x, y, area = x - 0.5 * (x.min() + x.max()), y - 0.5 * (y.min() + y.max()), r**2
@@ -78,7 +81,9 @@ def _offset(x, y, angle):
 
 
 def _profile(x, y, area, turned, angle, d):
-    """Mean rotation in strips parallel to ``angle``, and the offsets of their centres [m]; strips that the sample fills little are left out."""
+    """Mean rotation in strips parallel to ``angle``, and the offsets of their centres [m]; strips that the sample fills
+    little are left out.
+    """
     k = np.floor(_offset(x, y, angle) / (STRIP * d)).astype(int)
     low = k.min()
     filled = np.bincount(k - low, area)

@@ -3,19 +3,24 @@
 Rules (Taboada and Estrada 2009, section 6; what they leave open is ours):
 
 * t0: the water table begins to rise; a slope that failed before that, by its dry weight, has neither t0 nor t1 to t3;
-* t1, failure: the mean of N_FB, the normal force on the backstops, over one second first comes within 2 % of its largest value up to t2, the strength of the foot,
-  and stays about there (paragraph 116); where there is no backstop, the slope begins to creep: the mean speed comes to 0.02 m/s and is not below it again before t2;
-* t2, triggering: the slope begins to accelerate (paragraph 117): the mean speed comes to 0.2 m/s, and the slope does not come to rest again before it has got going;
-  this is ``moving`` of :mod:`.course.slope`. Friction and pore pressure are whole then, but for a slope that had slipped and stopped before;
-* t3: the mean of T_DP, the shear force on the slip surfaces, over one second has fallen by 90 % of its value at t2, and weakening has begun; none without weakening;
+* t1, failure: the mean of N_FB, the normal force on the backstops, over one second first comes within 2 % of its
+  largest value up to t2, the strength of the foot, and stays about there (paragraph 116); where there is no backstop,
+  the slope begins to creep: the mean speed comes to 0.02 m/s and is not below it again before t2;
+* t2, triggering: the slope begins to accelerate (paragraph 117): the mean speed comes to 0.2 m/s, and the slope does
+  not come to rest again before it has got going; this is ``moving`` of :mod:`.course.slope`. Friction and pore pressure
+  are whole then, but for a slope that had slipped and stopped before;
+* t3: the mean of T_DP, the shear force on the slip surfaces, over one second has fallen by 90 % of its value at t2, and
+  weakening has begun; none without weakening;
 * t4: the largest kinetic energy since t2;
 * t5: the mean speed falls below ``rest_fraction`` (2 %) of its maximum since t2 for good;
-* they come in this order: a t3 after t4, where weakening takes less than 90 % of the shear force and the deposit happens to bear little, is none of triggering, and a
-  t5 before t4 no rest. Such a time did not come, and :func:`missing` says why.
+* they come in this order: a t3 after t4, where weakening takes less than 90 % of the shear force and the deposit
+  happens to bear little, is none of triggering, and a t5 before t4 no rest. Such a time did not come, and
+  :func:`missing` says why.
 
-Weakening begins where D_c is reached by one per cent of the disks that fit along the slip surfaces; where some lie one above another (stacks.py), along one of them, and T is
-then the shear force on that one. A slope that failed dry has t4 and t5 of all of its rows.
-One second, 0.02 and 0.2 m/s, are those of the shipped section, and scaled for another (scales.py).
+Weakening begins where D_c is reached by one per cent of the disks that fit along the slip surfaces; where some lie one
+above another (stacks.py), along one of them, and T is then the shear force on that one. A slope that failed dry has t4
+and t5 of all of its rows. One second, 0.02 and 0.2 m/s, are those of the shipped section, and scaled for another
+(scales.py).
 """
 
 from __future__ import annotations
@@ -64,7 +69,8 @@ NEEDED = {
     "weakening_s": ("t3",),
     "motion_s": ("t3", "t5"),
 } | {f"times_s.{name}": (name,) for name in NAMES}
-#: Speeds for which :func:`by_threshold` tells t2, in per cent of that of a slope that moves (0.2 m/s of the shipped section), and shares of the largest mean speed for which it tells t5, in per cent.
+#: Speeds for which :func:`by_threshold` tells t2, in per cent of that of a slope that moves (0.2 m/s of the shipped
+#: section), and shares of the largest mean speed for which it tells t5, in per cent.
 FASTER, RESTING = (50, 100, 200, 300, 400, 500), (2, 5, 10)
 LEVEL = 0.98  # of the strength of the foot
 WEAKENED = 0.01  # of the disks along the slip surfaces
@@ -81,12 +87,16 @@ def columns(section) -> tuple[str, ...]:
 
 
 def chosen_rows(series, state):
-    """The rows that a run is told by: those since it settled, but all of a slope that failed dry. ``state``: see :func:`of_run`."""
+    """The rows that a run is told by: those since it settled, but all of a slope that failed dry. ``state``: see
+    :func:`of_run`.
+    """
     return series if state.get("failed_dry") is not None else records.since_settled(series)
 
 
 def mean_of(series, name, end, span):
-    """Mean of a column over the rows of the ``span`` seconds up to ``end`` [s], a row's time; 0: that row alone. NaN where there is none."""
+    """Mean of a column over the rows of the ``span`` seconds up to ``end`` [s], a row's time; 0: that row alone. NaN
+    where there is none.
+    """
     t = series["time_s"]
     chosen = (t > end - _reach(t, span)) & (t <= end + SAME)
     return float(np.mean(series[name][chosen])) if chosen.any() else math.nan
@@ -107,7 +117,9 @@ def _means(series, name, span):
 
 
 def of_run(series, section, state) -> dict[str, float | None]:
-    """t0 … t5 [s] of a run; None for those that did not come. ``series``: its :func:`chosen_rows`; ``state``: the fields of course.State as a mapping."""
+    """t0 … t5 [s] of a run; None for those that did not come. ``series``: its :func:`chosen_rows`; ``state``: the
+    fields of course.State as a mapping.
+    """
     found = _of_run(series, section, state, scales.of(section))
     return {name: None if name in _out_of_order(found) else time for name, time in found.items()}
 
@@ -130,7 +142,9 @@ def missing(series, section, state) -> dict[str, str]:
 
 
 def reason_of(name, times_missing):
-    """Why a run has not the number ``name`` of its summary, from its ``times_missing``; None where that does not tell."""
+    """Why a run has not the number ``name`` of its summary, from its ``times_missing``; None where that does not
+    tell.
+    """
     return next((times_missing[time] for time in NEEDED.get(name, ()) if times_missing.get(time)), None)
 
 
@@ -172,12 +186,16 @@ def _of_run(series, section, state, scale):
 
 
 def weakening_begins(series, section, state) -> float | None:
-    """When the slip surfaces begin to weaken [s], see above; None where they do not, and for a slope that failed dry. Arguments as of :func:`of_run`."""
+    """When the slip surfaces begin to weaken [s], see above; None where they do not, and for a slope that failed dry.
+    Arguments as of :func:`of_run`.
+    """
     return _weakening(series, section, state)[0]
 
 
 def _weakening(series, section, state):
-    """When weakening begins [s], and along which slip surface, its name, of those one above another; None for what there is not."""
+    """When weakening begins [s], and along which slip surface, its name, of those one above another; None for what
+    there is not.
+    """
     if state.get("failed_dry") is not None or state["t0"] is None:
         return None, None
     name, lines = "weakened_disks", dict(section.slip_surfaces)
@@ -194,9 +212,10 @@ def _weakening(series, section, state):
 
 
 def by_threshold(series, section, times) -> dict[str, dict[str, float | None]]:
-    """What t2 and t5 would be by other rules, as the paper gives none: ``t2_by_speed_s``, {per cent of the speed of a slope that moves, one of :data:`FASTER`: since when the mean speed has not been below
-    it [s], until t4}, and ``t5_by_speed_s``, {per cent of the largest mean speed, one of :data:`RESTING`: when it has fallen below it for good [s]}. None for what did not come. ``times``: what
-    :func:`of_run` found; the other arguments as for it.
+    """What t2 and t5 would be by other rules, as the paper gives none: ``t2_by_speed_s``, {per cent of the speed of a
+    slope that moves, one of :data:`FASTER`: since when the mean speed has not been below it [s], until t4}, and
+    ``t5_by_speed_s``, {per cent of the largest mean speed, one of :data:`RESTING`: when it has fallen below it for good
+    [s]}. None for what did not come. ``times``: what :func:`of_run` found; the other arguments as for it.
     """
     t, speed, moving = series["time_s"], series["speed_mean_m_per_s"], scales.of(section).moving_speed
     begun = {f"{percent}": None for percent in FASTER}
@@ -242,14 +261,18 @@ def _failure(series, scale, t0, until):
 
 
 def _pushes(series, scale, t0):
-    """Mean force on the backstops over the second before each row [N/m]; NaN where that is not all since t0, and where they have borne nothing yet."""
+    """Mean force on the backstops over the second before each row [N/m]; NaN where that is not all since t0, and where
+    they have borne nothing yet.
+    """
     force = series["fb_normal_N_per_m"]
     late = (series["time_s"] >= t0 + scale.mean_seconds - SAME) & (np.cumsum(force != 0) > 0)
     return np.where(late, _means(series, "fb_normal_N_per_m", scale.mean_seconds), np.nan)
 
 
 def _creeps(series, scale, t0, until):
-    """Number of the row from which on the mean speed has not been below that of a slope that stands, up to a time [s]."""
+    """Number of the row from which on the mean speed has not been below that of a slope that stands, up to a time
+    [s].
+    """
     last = _row(series, until)
     slow = (series["time_s"] < t0 - SAME) | (series["speed_mean_m_per_s"] < scale.stopped_speed)
     slow = np.flatnonzero(slow[: last + 1])
@@ -258,9 +281,11 @@ def _creeps(series, scale, t0, until):
 
 # ---- while a run goes on ----------------------------------------------------------------------------
 def kept_rows(series, section, state) -> np.ndarray:
-    """Which rows so far are or may still become t1 … t5: their numbers, rising. What is not among them will not be one of these times, whatever comes.
+    """Which rows so far are or may still become t1 … t5: their numbers, rising. What is not among them will not be one
+    of these times, whatever comes.
 
-    ``series``: all rows so far, :data:`COLUMNS` at least; ``state``: the fields of course.State after the last of them as a mapping.
+    ``series``: all rows so far, :data:`COLUMNS` at least; ``state``: the fields of course.State after the last of them
+    as a mapping.
     """
     chosen, failed, scale = chosen_rows(series, state), state["failed_dry"] is not None, scales.of(section)
     times = _of_run(chosen, section, state, scale)
@@ -276,7 +301,9 @@ def kept_rows(series, section, state) -> np.ndarray:
 
 
 def _may_be_failure(series, scale, t0):
-    """Times [s] that t1 may have when t2 comes, a set: what is first above a share of a largest force that is yet to come was a record when it came."""
+    """Times [s] that t1 may have when t2 comes, a set: what is first above a share of a largest force that is yet to
+    come was a record when it came.
+    """
     t, push = series["time_s"], np.nan_to_num(_pushes(series, scale, t0), nan=-np.inf)
     best = np.maximum.accumulate(push)
     record = push > np.append(-np.inf, best[:-1])

@@ -15,8 +15,8 @@ def begin(end):
 
 
 def rate(time, way, end):
-    """Slope of the straight line through ``way`` against ``time`` [s] from :func:`begin` of ``end`` on, by least squares, in the way's unit a minute; arrays or lists (n,). NaN where
-    fewer than two points are left."""
+    """Slope of the straight line through ``way`` against ``time`` [s] from :func:`begin` of ``end`` on, by least
+    squares, in the way's unit a minute; arrays or lists (n,). NaN where fewer than two points are left."""
     t, w = np.asarray(time, float), np.asarray(way, float)
     late = t >= begin(end)
     return 60.0 * float(np.polyfit(t[late], w[late], 1)[0]) if late.sum() > 1 else float("nan")

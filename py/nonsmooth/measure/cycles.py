@@ -1,7 +1,10 @@
-"""Cycles of stress in a sheared sample: it builds up while the sample dilates, then strong chains of contacts fail, it drops, and the sample contracts (Taboada and Estrada 2009, [56], Figure 6).
+"""Cycles of stress in a sheared sample: it builds up while the sample dilates, then strong chains of contacts fail, it
+drops, and the sample contracts (Taboada and Estrada 2009, [56], Figure 6).
 
-A cycle is a rise of the deviator stress σ₁ − σ₃ by more than :data:`LEAST` of its mean on the plateau, and a drop by as much within :data:`SHORT` rows. A row takes √(m/σ₃), the time in which the pressure
-moves a disk by its own size, so a collapse takes some of them. Where the stress falls slowly before it drops, that belongs to the time before, and where it falls slowly only, that is no drop.
+A cycle is a rise of the deviator stress σ₁ − σ₃ by more than :data:`LEAST` of its mean on the plateau, and a drop by as
+much within :data:`SHORT` rows. A row takes √(m/σ₃), the time in which the pressure moves a disk by its own size, so a
+collapse takes some of them. Where the stress falls slowly before it drops, that belongs to the time before, and where
+it falls slowly only, that is no drop.
 """
 
 from __future__ import annotations
@@ -37,7 +40,9 @@ NUMBERS = (
 
 @dataclass(frozen=True)
 class Cycle:
-    """Rows of a series: ``begin``, where the stress begins to build up; ``peak``, the last one before the drop; ``end`` of the drop."""
+    """Rows of a series: ``begin``, where the stress begins to build up; ``peak``, the last one before the drop; ``end``
+    of the drop.
+    """
 
     begin: int
     peak: int
@@ -45,13 +50,17 @@ class Cycle:
 
 
 def deviator(series):
-    """σ₁ − σ₃ of a test's rows [Pa], (n,): means over both platens and both sides. ``series``: columns as in `biaxial.COLUMNS`."""
+    """σ₁ − σ₃ of a test's rows [Pa], (n,): means over both platens and both sides. ``series``: columns as in
+    `biaxial.COLUMNS`.
+    """
     sides = (np.asarray(series[f"sigma3_{side}_Pa"], float) for side in ("left", "right"))
     return axial_stress(series) - 0.5 * sum(sides)
 
 
 def find(stress, least):
-    """The :class:`Cycle` s in a stress [Pa], (n,): rises, and the steepest drop in the falls after them, of more than ``least`` [Pa] each. That of the last one may go on at the end."""
+    """The :class:`Cycle` s in a stress [Pa], (n,): rises, and the steepest drop in the falls after them, of more than
+    ``least`` [Pa] each. That of the last one may go on at the end.
+    """
     stress, found, begin = np.asarray(stress, float), [], 0
     for high, low in contractions(stress, least):
         first = begin + int(np.argmin(stress[begin : high + 1]))
@@ -63,7 +72,9 @@ def find(stress, least):
 
 
 def _steepest(stress, high, low):
-    """The rows, of those from ``high`` to ``low``, between which the stress drops within :data:`SHORT` rows: by :data:`SHARP` of the most that it does so, and more, in the fewest rows; of several the deepest."""
+    """The rows, of those from ``high`` to ``low``, between which the stress drops within :data:`SHORT` rows: by
+    :data:`SHARP` of the most that it does so, and more, in the fewest rows; of several the deepest.
+    """
     pairs = [(a, b) for a in range(high, low) for b in range(a + 1, min(a + SHORT, low) + 1)]
     most = max(stress[a] - stress[b] for a, b in pairs)
     sharp = [(a, b) for a, b in pairs if stress[a] - stress[b] >= SHARP * most]
@@ -71,7 +82,9 @@ def _steepest(stress, high, low):
 
 
 def deepest(series, begin, end):
-    """The cycle with the deepest drop that lies between two strains, by rows of the whole series; None where there is none."""
+    """The cycle with the deepest drop that lies between two strains, by rows of the whole series; None where there is
+    none.
+    """
     strain = np.asarray(series["strain"], float)
     rows = np.flatnonzero((strain >= begin - 1e-9) & (strain <= end + 1e-9))
     stress = deviator(series)
@@ -85,11 +98,14 @@ def deepest(series, begin, end):
 def measure(series, plateau):
     """Numbers of the cycles on a test's plateau, a dictionary by :data:`NUMBERS`; None where there is no cycle.
 
-    ``series``: columns as in `biaxial.COLUMNS`; ``plateau``: its strains. ``cycles_per_percent`` of strain; ``cycle_build_strain``, ``cycle_drop_strain``: mean strains of both phases; ``cycle_drop_rel``:
-    mean drop, of the mean deviator stress. ``cycle_dilates``: share of the cycles in which the volume grows while the stress builds up; ``cycle_contracts``: in which it falls below that of the peak in
-    the drop or the :data:`SHORT` rows after it, beside ``cycle_contracts_by_chance``, the share of all rows that are followed by such a fall within as many rows; ``cycle_both``: with both.
-    ``cycle_energy_build_rel``, ``cycle_energy_drop_rel``: mean kinetic energy while the stress builds up, and in drops and the rows after them, by that on the plateau (None for a series of
-    earlier versions, without it).
+    ``series``: columns as in `biaxial.COLUMNS`; ``plateau``: its strains. ``cycles_per_percent`` of strain;
+    ``cycle_build_strain``, ``cycle_drop_strain``: mean strains of both phases; ``cycle_drop_rel``: mean drop, of the
+    mean deviator stress. ``cycle_dilates``: share of the cycles in which the volume grows while the stress builds up;
+    ``cycle_contracts``: in which it falls below that of the peak in the drop or the :data:`SHORT` rows after it, beside
+    ``cycle_contracts_by_chance``, the share of all rows that are followed by such a fall within as many rows;
+    ``cycle_both``: with both. ``cycle_energy_build_rel``, ``cycle_energy_drop_rel``: mean kinetic energy while the
+    stress builds up, and in drops and the rows after them, by that on the plateau (None for a series of earlier
+    versions, without it).
     """
     strain = np.asarray(series["strain"], float)
     late = (strain >= plateau[0]) & (strain <= plateau[1] + 1e-9)

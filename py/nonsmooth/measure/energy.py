@@ -15,14 +15,18 @@ def dissipated(series):
 
 
 def turned_over(series):
-    """The larger of all that was dissipated and the largest kinetic energy [J/m]; ``series``: dict of columns from the row on in which the balance begins."""
+    """The larger of all that was dissipated and the largest kinetic energy [J/m]; ``series``: dict of columns from the
+    row on in which the balance begins.
+    """
     return max(dissipated(series), float(np.max(series["energy_kinetic_J"])))
 
 
 def balance_error(series):
-    """The error of the balance in each row as a share of what the whole run turns over, shape (rows,); 0 in a run that turns over nothing.
+    """The error of the balance in each row as a share of what the whole run turns over, shape (rows,); 0 in a run that
+    turns over nothing.
 
-    The column ``energy_error_rel`` refers to what was turned over until its row (losses, kinetic energy, work of the water), of which a slope at rest has next to none.
+    The column ``energy_error_rel`` refers to what was turned over until its row (losses, kinetic energy, work of the
+    water), of which a slope at rest has next to none.
     """
     until = sum(series[name] for name in LOSSES) + series["energy_kinetic_J"] + np.abs(series["energy_water_J"])
     turned = turned_over(series)

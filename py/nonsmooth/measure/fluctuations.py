@@ -1,8 +1,10 @@
-"""How the stress of a biaxial test fluctuates while the sample shears, its short contractions, and what breaks its bonds (Taboada and Estrada 2009, 4.2.3 and 5.2).
+"""How the stress of a biaxial test fluctuates while the sample shears, its short contractions, and what breaks its
+bonds (Taboada and Estrada 2009, 4.2.3 and 5.2).
 
-A sheared sample dilates and contracts in turn: strong chains of contacts form and the sample dilates, then they fail, the stress drops and the sample contracts [56]. The paper says of its
-tests that fluctuations shrink with the disks' size while averages stay [107], that each contraction is about the volume of a disk of average size, and that contractions go with
-stress drops [108].
+A sheared sample dilates and contracts in turn: strong chains of contacts form and the sample dilates, then they fail,
+the stress drops and the sample contracts [56]. The paper says of its tests that fluctuations shrink with the disks'
+size while averages stay [107], that each contraction is about the volume of a disk of average size, and that
+contractions go with stress drops [108].
 """
 
 from __future__ import annotations
@@ -21,7 +23,9 @@ MODES = ("tension", "shear", "torque", "mixed")
 
 
 def fluctuation(strain, stress):
-    """Standard deviation of the stress of rows about its mean over one per cent of strain, by that mean; NaN for less strain than that. Arrays (n,)."""
+    """Standard deviation of the stress of rows about its mean over one per cent of strain, by that mean; NaN for less
+    strain than that. Arrays (n,).
+    """
     strain, stress = np.asarray(strain, float), np.asarray(stress, float)
     begin, mean = running_mean(strain - strain[0], stress, WINDOW)
     if not len(begin):
@@ -33,7 +37,9 @@ def fluctuation(strain, stress):
 
 
 def contractions(volumetric, least):
-    """Phases in which the volume falls by more than ``least`` before it rises by as much: list of (first, last) rows, of the highest and the lowest volume. ``volumetric``: (n,)."""
+    """Phases in which the volume falls by more than ``least`` before it rises by as much: list of (first, last) rows,
+    of the highest and the lowest volume. ``volumetric``: (n,).
+    """
     found, high, low = [], 0, 0
     falling = False
     for k, v in enumerate(np.asarray(volumetric, float)):
@@ -59,9 +65,10 @@ def shares_of_breaks(series, row=-1):
 def measure(series, plateau, area, disk_area):
     """Figures of a test's plateau, a dictionary.
 
-    ``series``: columns as in `biaxial.COLUMNS`; ``plateau``: its strains; ``area`` of the sample before, ``disk_area``: mean of its disks [m²].
-    ``stress_fluctuation_rel``; ``contractions_per_percent`` of axial strain; ``contraction_disks``: their mean size in areas of a mean disk, None without any;
-    ``contraction_with_drop``: the share of them in which σ₁ falls, None without any; ``broken_shares``: see :func:`shares_of_breaks`, at the end.
+    ``series``: columns as in `biaxial.COLUMNS`; ``plateau``: its strains; ``area`` of the sample before, ``disk_area``:
+    mean of its disks [m²]. ``stress_fluctuation_rel``; ``contractions_per_percent`` of axial strain;
+    ``contraction_disks``: their mean size in areas of a mean disk, None without any; ``contraction_with_drop``: the
+    share of them in which σ₁ falls, None without any; ``broken_shares``: see :func:`shares_of_breaks`, at the end.
     """
     strain = np.asarray(series["strain"], float)
     late = (strain >= plateau[0]) & (strain <= plateau[1] + 1e-9)

@@ -1,8 +1,11 @@
-"""What the forces on the walls do from stage to stage of an avalanche: the statements of the paper's section 6, each as one number. Needs no YADE.
+"""What the forces on the walls do from stage to stage of an avalanche: the statements of the paper's section 6, each as
+one number. Needs no YADE.
 
-With N, T the total normal and the shear force on the slip surfaces (DP), N' = N − U what contacts bear of N, U the water's force, F the normal force on the backstop (FB), μ the
-friction of the slip surface, means over a second at each time. As t1 is where F comes within 2 % of its largest value, ``backstop_span`` is small almost by definition; ``backstop_fall``
-is not, since a foot that loses its strength once it is overcome falls far before the slope accelerates:
+With N, T the total normal and the shear force on the slip surfaces (DP), N' = N − U what contacts bear of N, U the
+water's force, F the normal force on the backstop (FB), μ the friction of the slip surface, means over a second at each
+time. As t1 is where F comes within 2 % of its largest value, ``backstop_span`` is small almost by definition;
+``backstop_fall`` is not, since a foot that loses its strength once it is overcome falls far before the slope
+accelerates:
 
 =============================  ============================================================  ============================
 name                           number                                                        paper
@@ -23,8 +26,9 @@ name                           number                                           
 ``shear_final``                T at the end / T(t0)                                          small, below 0 ([119])
 =============================  ============================================================  ============================
 
-Forces normal to the slip surface are in balance. The rising push on the backstop brings friction along it, which holds the toe down on the slip surface: N grows by this force
-(where the backstop stands across the surface), and T by μ times it. Equation (19) leaves it out; T = μ N' holds all the same.
+Forces normal to the slip surface are in balance. The rising push on the backstop brings friction along it, which holds
+the toe down on the slip surface: N grows by this force (where the backstop stands across the surface), and T by μ times
+it. Equation (19) leaves it out; T = μ N' holds all the same.
 """
 
 from __future__ import annotations
@@ -56,8 +60,9 @@ NAMES = (
 def statements(series, times, friction, mean, backstop=True) -> dict[str, float | None]:
     """The numbers of :data:`NAMES`, None for what the run has not reached or the slope has not.
 
-    ``series``: the rows of a run's series, name -> array; ``times``: t0 … t5 [s], None for those that did not come; ``friction``: μ of the slip surface before it weakens, None
-    where there are several; ``mean(name, end)``: mean of a column over the second up to a time [s]; ``backstop``: whether there is one.
+    ``series``: the rows of a run's series, name -> array; ``times``: t0 … t5 [s], None for those that did not come;
+    ``friction``: μ of the slip surface before it weakens, None where there are several; ``mean(name, end)``: mean of a
+    column over the second up to a time [s]; ``backstop``: whether there is one.
     """
     found = dict.fromkeys(NAMES)
     t0, t1, t2, t3, _, t5 = (times[f"t{k}"] for k in range(6))

@@ -18,7 +18,9 @@ class GroundError(UserError, ValueError):
 
 
 class Wall(NamedTuple):
-    """``vertices``: (n, 2) [m]; ``role``: see :mod:`.roles`, None where nobody said; ``buried``: an interface between layers, which is no wall."""
+    """``vertices``: (n, 2) [m]; ``role``: see :mod:`.roles`, None where nobody said; ``buried``: an interface between
+    layers, which is no wall.
+    """
 
     name: str
     vertices: np.ndarray
@@ -29,10 +31,11 @@ class Wall(NamedTuple):
 class Ground:
     """Walls, and what follows from them.
 
-    ``walls``: list of Wall; ``side``: 1 for a slope that falls to the right, −1 to the left; ``water``: (points (n, 2) [m], unit normal) of the plane from which
-    water is measured, or None; ``layers``: their names, empty where they have none; ``mass``: numbers of the layers that
-    are neither bed nor obstacle, None: all are mass; ``base``: name of the wall from which water is measured, None where it is measured from a plane of its own;
-    ``weakening``: {number: Wall} of those that weaken with slip, by their column of :attr:`.records.Snapshot.weakened`.
+    ``walls``: list of Wall; ``side``: 1 for a slope that falls to the right, −1 to the left; ``water``: (points (n, 2)
+    [m], unit normal) of the plane from which water is measured, or None; ``layers``: their names, empty where they have
+    none; ``mass``: numbers of the layers that are neither bed nor obstacle, None: all are mass; ``base``: name of the
+    wall from which water is measured, None where it is measured from a plane of its own; ``weakening``: {number: Wall}
+    of those that weaken with slip, by their column of :attr:`.records.Snapshot.weakened`.
     """
 
     def __init__(self, walls, side, water, layers=(), mass=None, base=None, weakening=None):
@@ -53,7 +56,9 @@ class Ground:
 
     @property
     def stacked(self):
-        """Names of all slip surfaces where some lie one above another, see :mod:`..stacks`; empty where they lie side by side."""
+        """Names of all slip surfaces where some lie one above another, see :mod:`..stacks`; empty where they lie side
+        by side.
+        """
         slip = self.of_role("slip")
         return tuple(wall.name for wall in slip) if any(stacks.levels([wall.vertices for wall in slip])) else ()
 
@@ -67,8 +72,9 @@ class Ground:
         return points[np.argmax(self.side * points[:, 0])]
 
     def beyond(self, x0, x1):
-        """How the ground goes on from the outermost ends of the walls to the limits ``x0`` and ``x1`` [m] of a picture: pieces [(2, 2)] from left to right, none where walls reach that far. As
-        the wall does where it is less steep than 45°, else level."""
+        """How the ground goes on from the outermost ends of the walls to the limits ``x0`` and ``x1`` [m] of a picture:
+        pieces [(2, 2)] from left to right, none where walls reach that far. As the wall does where it is less steep
+        than 45°, else level."""
         open_walls = [wall.vertices for wall in self.walls if not wall.buried]
         pieces = []
         for sense, limit in ((-1, x0), (1, x1)) if open_walls else ():
@@ -98,11 +104,15 @@ class Ground:
 
     @property
     def table_slope(self):
-        """Rise of the water table over its way in x, where it is a plane of its own, as that of a reservoir, which is 0; None where it follows a wall, or there is none."""
+        """Rise of the water table over its way in x, where it is a plane of its own, as that of a reservoir, which is
+        0; None where it follows a wall, or there is none.
+        """
         return None if self._water is None or self.base is not None else -self._water[1][0] / self._water[1][1]
 
     def water_points(self, height):
-        """Vertices (n, 2) [m] of a water table ``height`` [m] above its plane, along the plane's normal; None where no plane is known."""
+        """Vertices (n, 2) [m] of a water table ``height`` [m] above its plane, along the plane's normal; None where no
+        plane is known.
+        """
         if self._water is None:
             return None
         points, normal = self._water
@@ -120,7 +130,8 @@ def _plane(slip):
 
 
 def ground_of(walls):
-    """The Ground of a Section; or of what has ``walls``, or of a list of walls: (name, vertices), (name, vertices, role), or objects with these attributes.
+    """The Ground of a Section; or of what has ``walls``, or of a list of walls: (name, vertices), (name, vertices,
+    role), or objects with these attributes.
 
     Raises GroundError for a wall of less than two points.
     """

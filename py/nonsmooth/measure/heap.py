@@ -1,4 +1,6 @@
-"""Front, surface, angle of repose and overlaps of a heap, from the places of its disks alone: the same for hard and for soft contacts."""
+"""Front, surface, angle of repose and overlaps of a heap, from the places of its disks alone: the same for hard and for
+soft contacts.
+"""
 
 from __future__ import annotations
 
@@ -17,7 +19,9 @@ WINDOW = 2.0  # mean diameters, width over which the surface is averaged
 
 
 def gaps(x, y, r, margin):
-    """Pairs with a gap below ``margin`` [m]: indices i < j, and gaps [m], arrays of one length; x, y, r of shape (n,)."""
+    """Pairs with a gap below ``margin`` [m]: indices i < j, and gaps [m], arrays of one length; x, y, r of shape
+    (n,).
+    """
     pairs = cKDTree(np.column_stack((x, y))).query_pairs(2 * np.max(r) + margin, output_type="ndarray")
     i, j = pairs.T
     gap = np.hypot(x[i] - x[j], y[i] - y[j]) - r[i] - r[j]
@@ -28,7 +32,8 @@ def gaps(x, y, r, margin):
 
 
 def connected(x, y, r, touch=TOUCH):
-    """Which disks belong to the mass, bool (n,): the largest set that hangs together over gaps below ``touch`` mean diameters.
+    """Which disks belong to the mass, bool (n,): the largest set that hangs together over gaps below ``touch`` mean
+    diameters.
 
     A disk that rolls ahead of the others by itself does not, nor one that is in the air.
     """
@@ -46,7 +51,8 @@ def fronts(x, r, mass):
 def surface(x, y, r, mass):
     """Height of the mass above y = 0 along x: arrays x, height [m].
 
-    At each x it is the top of the highest disk that covers it, 0 where there is none, averaged over :data:`WINDOW` mean diameters.
+    At each x it is the top of the highest disk that covers it, 0 where there is none, averaged over :data:`WINDOW` mean
+    diameters.
     """
     x, y, r = x[mass], y[mass], r[mass]
     d = 2 * float(np.mean(r))
@@ -82,8 +88,9 @@ def repose(x, height):
 def overlap(x, y, r, walls, fixed=None):
     """Mean and largest overlap of contacts, in units of ℓ (r₁ + r₂; of a disk and a wall 2 r).
 
-    ``walls``: distances [m] of the disks' centres from each wall, arrays of shape (n,); ``fixed``: x, y, r of disks that do not move, whose contacts
-    with the others count. The mean is over contacts, pairs with a gap below :data:`NEAR`; those with a gap count as 0.
+    ``walls``: distances [m] of the disks' centres from each wall, arrays of shape (n,); ``fixed``: x, y, r of disks
+    that do not move, whose contacts with the others count. The mean is over contacts, pairs with a gap below
+    :data:`NEAR`; those with a gap count as 0.
     """
     n = len(x)
     if fixed is not None:

@@ -1,4 +1,6 @@
-"""What became of the order of layers: whether they have mixed (Taboada and Estrada 2009, [21], 5), and where folds have turned it over ([118], [127])."""
+"""What became of the order of layers: whether they have mixed (Taboada and Estrada 2009, [21], 5), and where folds have
+turned it over ([118], [127]).
+"""
 
 from __future__ import annotations
 
@@ -14,11 +16,14 @@ TURNED = 0.5  # layers by which the mean of a cell is below that of the one unde
 
 
 def mixing(start, end, mass=None) -> float | None:
-    """How far layers have mixed between two Snapshots: 0 for the layers as they lay, 1 where each disk has neighbours as if all disks had been dealt out at random.
+    """How far layers have mixed between two Snapshots: 0 for the layers as they lay, 1 where each disk has neighbours
+    as if all disks had been dealt out at random.
 
-    It is (s − s₀) / (s₁ − s₀), with s the share of pairs of neighbours (gaps below a quarter of a mean diameter) that are of two layers at the ``end``, s₀ that at the ``start``, and s₁ that of disks dealt
-    out at random, 1 − Σ p² for layers with the parts p of all disks. A rigid slide has 0. Layers that stay whole and are drawn out have a little, as their borders grow; the number of layers' own disks does
-    not matter. ``mass``: numbers of the layers that count, all where None. None for one layer, and for layers that were mixed at the start.
+    It is (s − s₀) / (s₁ − s₀), with s the share of pairs of neighbours (gaps below a quarter of a mean diameter) that
+    are of two layers at the ``end``, s₀ that at the ``start``, and s₁ that of disks dealt out at random, 1 − Σ p² for
+    layers with the parts p of all disks. A rigid slide has 0. Layers that stay whole and are drawn out have a little,
+    as their borders grow; the number of layers' own disks does not matter. ``mass``: numbers of the layers that count,
+    all where None. None for one layer, and for layers that were mixed at the start.
     """
     chosen = _chosen(start, mass)
     parts = np.bincount(start.layer[chosen]) / max(1, np.count_nonzero(chosen))
@@ -45,8 +50,10 @@ def _foreign(snapshot, chosen):
 
 
 def overturned(snapshot, mass=None):
-    """Where layers lie upside down, in columns of three mean diameters: the columns' centres x [m], rising, and the height [m] in each over which the layers' order goes down from one cell to the one above
-    it, (columns,) each. Cells are three mean diameters high, and their layer is the mean of their disks, four at least. ``mass``: as of :func:`mixing`.
+    """Where layers lie upside down, in columns of three mean diameters: the columns' centres x [m], rising, and the
+    height [m] in each over which the layers' order goes down from one cell to the one above it, (columns,) each. Cells
+    are three mean diameters high, and their layer is the mean of their disks, four at least. ``mass``: as of
+    :func:`mixing`.
     """
     chosen = _chosen(snapshot, mass)
     x, y, layer = snapshot.x[chosen], snapshot.y[chosen], snapshot.layer[chosen]
@@ -63,7 +70,9 @@ def overturned(snapshot, mass=None):
 
 
 def overturned_length(snapshot, mass=None) -> float:
-    """Length [m] along x over which the order of layers is turned over somewhere, see :func:`overturned`: of the overturned limbs of folds. 0 for layers that lie as they were laid down."""
+    """Length [m] along x over which the order of layers is turned over somewhere, see :func:`overturned`: of the
+    overturned limbs of folds. 0 for layers that lie as they were laid down.
+    """
     x, height = overturned(snapshot, mass)
     width = float(x[1] - x[0]) if len(x) > 1 else 0.0
     return width * int(np.count_nonzero(height))

@@ -1,7 +1,7 @@
 """Published laws of the collapse of columns, and power laws fitted to runs.
 
-Runout (L_f − L₀)/L₀ and final height H_f/L₀ against the aspect ratio a = H₀/L₀, in two dimensions. Exponents are those of a power law, fitted as a line to
-logarithms, below and above the aspect ratio where the published law changes.
+Runout (L_f − L₀)/L₀ and final height H_f/L₀ against the aspect ratio a = H₀/L₀, in two dimensions. Exponents are those
+of a power law, fitted as a line to logarithms, below and above the aspect ratio where the published law changes.
 """
 
 from __future__ import annotations
@@ -24,7 +24,9 @@ class PowerLawError(UserError, ValueError):
 
 @dataclass(frozen=True)
 class Law:
-    """A published law: c aⁿ in pieces. ``pieces``: (factor c, exponent n) below and above the aspect ratio ``change``."""
+    """A published law: c aⁿ in pieces. ``pieces``: (factor c, exponent n) below and above the aspect ratio
+    ``change``.
+    """
 
     source: str
     change: float
@@ -51,7 +53,9 @@ HEIGHT = (
 
 @dataclass(frozen=True)
 class Fit:
-    """c aⁿ: ``factor`` c, ``exponent`` n, the half width of its 95 % confidence interval (NaN for two points), and the number of ``points``."""
+    """c aⁿ: ``factor`` c, ``exponent`` n, the half width of its 95 % confidence interval (NaN for two points), and the
+    number of ``points``.
+    """
 
     factor: float
     exponent: float
@@ -64,7 +68,9 @@ class Fit:
 
 
 def fit(a, values):
-    """Least-squares line through logarithms; a, values of shape (n,). Raises PowerLawError for less than two aspect ratios or a value not above 0."""
+    """Least-squares line through logarithms; a, values of shape (n,). Raises PowerLawError for less than two aspect
+    ratios or a value not above 0.
+    """
     a, values = np.asarray(a, float), np.asarray(values, float)
     if len(np.unique(a)) < 2:
         raise PowerLawError(f"{len(np.unique(a))} aspect ratios: a power law wants two or more")

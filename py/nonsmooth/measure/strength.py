@@ -1,12 +1,13 @@
 """Strength from the curves of biaxial tests: peak, plateau, dilatancy, and the envelope of Mohr's circles.
 
-A circle of the stresses σ₁ ≥ σ₃ has its centre at s = (σ₁ + σ₃)/2 and the radius t = (σ₁ − σ₃)/2. The line τ = c + σ tan φ touches it where
+A circle of the stresses σ₁ ≥ σ₃ has its centre at s = (σ₁ + σ₃)/2 and the radius t = (σ₁ − σ₃)/2. The line τ = c + σ
+tan φ touches it where
 
     t = c cos φ + s sin φ .
 
-The envelope is the line that comes closest to touching all circles (Taboada and Estrada 2009, section 5.2, Figure 11): least squares of the
-relative misses (t − c cos φ − s sin φ)/t, so that circles of low pressure, which alone tell the cohesion, count as much as large ones. Neither c nor φ is
-let below zero.
+The envelope is the line that comes closest to touching all circles (Taboada and Estrada 2009, section 5.2, Figure 11):
+least squares of the relative misses (t − c cos φ − s sin φ)/t, so that circles of low pressure, which alone tell the
+cohesion, count as much as large ones. Neither c nor φ is let below zero.
 """
 
 from __future__ import annotations
@@ -40,15 +41,17 @@ __all__ = [
 PEAK_WINDOW = 2e-3  # strain over which the stress is averaged before its maximum is taken
 DILATANCY_WINDOW = 5e-3  # strain around the peak over which the slope of the volume is taken
 PLATEAU = 0.5  # share of a test's strain from which on the residual strength is the mean
-SOFTENED = 0.04  # strain from which on the paper's tests are on their plateau (section 5.2); a mean that begins before is no residual strength
+# strain from which on the paper's tests are on their plateau (section 5.2); a mean that begins before is no residual
+# strength
+SOFTENED = 0.04
 FIGURE_10 = (0.005, 0.02)  # strains between which the paper's curves have their peak, or a little more (Figure 10)
 SHORTEST = PEAK_WINDOW / (1 - PLATEAU)  # strain of a test that has both a peak and a plateau to measure
 
 
 @dataclass(frozen=True)
 class Curve:
-    """What one test says. Stresses [Pa]; ``confining`` as it was during peak or plateau; ``error``: standard error of the plateau's mean; ``dilatancy_deg``: NaN where
-    fewer than three rows lie around the peak."""
+    """What one test says. Stresses [Pa]; ``confining`` as it was during peak or plateau; ``error``: standard error of
+    the plateau's mean; ``dilatancy_deg``: NaN where fewer than three rows lie around the peak."""
 
     peak: float
     peak_strain: float
@@ -64,7 +67,8 @@ class Curve:
 def curve(series, plateau):
     """Figures of a test's series (columns as in `biaxial.COLUMNS`).
 
-    ``plateau``: strains between which the residual strength is the mean. Raises ValueError where the test ends before the plateau has begun.
+    ``plateau``: strains between which the residual strength is the mean. Raises ValueError where the test ends before
+    the plateau has begun.
     """
     strain = np.asarray(series["strain"], float)
     if strain[-1] < plateau[0] + PEAK_WINDOW - 1e-8:
@@ -116,8 +120,8 @@ def lateral_stress(series):
 def running_mean(strain, values, window):
     """Means of ``values`` over ``window`` of strain: (the strains at which the windows begin, the means), arrays of m.
 
-    ``strain``, ``values``: arrays of n, a row's strain at its end and the mean over what it covers; rows may cover more or less strain. Windows begin
-    where rows do and are whole; none (m = 0) where ``strain`` ends before the first.
+    ``strain``, ``values``: arrays of n, a row's strain at its end and the mean over what it covers; rows may cover more
+    or less strain. Windows begin where rows do and are whole; none (m = 0) where ``strain`` ends before the first.
     """
     strain, values = np.asarray(strain, float), np.asarray(values, float)
     edges = np.concatenate(([0.0], strain))
@@ -127,7 +131,9 @@ def running_mean(strain, values, window):
 
 
 def later_share(series) -> float | None:
-    """The largest stress, in means as peaks are, between the strains of :data:`FIGURE_10` over the largest of all: 1 where the peak lies there; None for a test that ends before."""
+    """The largest stress, in means as peaks are, between the strains of :data:`FIGURE_10` over the largest of all: 1
+    where the peak lies there; None for a test that ends before.
+    """
     begin, mean = running_mean(series["strain"], axial_stress(series), PEAK_WINDOW)
     middle = begin + PEAK_WINDOW / 2
     there = (middle >= FIGURE_10[0]) & (middle <= FIGURE_10[1])
@@ -135,7 +141,9 @@ def later_share(series) -> float | None:
 
 
 def mean_between(series, low, high):
-    """(σ₃, σ₁) [Pa], means over the strains from ``low`` to ``high`` of a test's series; None for a test that ends before ``high``, to half a row."""
+    """(σ₃, σ₁) [Pa], means over the strains from ``low`` to ``high`` of a test's series; None for a test that ends
+    before ``high``, to half a row.
+    """
     strain = np.asarray(series["strain"], float)
     there = (strain > low) & (strain <= high + 1e-9)
     covered = np.diff(strain, prepend=0.0)  # a row counts for the strain that it covers
@@ -146,7 +154,9 @@ def mean_between(series, low, high):
 
 
 def apparent_deg(minor, major) -> float:
-    """Angle of friction [°] of a rock without cohesion that fails under σ₃ = ``minor`` at σ₁ = ``major`` [Pa]: sin φ = (σ₁ − σ₃)/(σ₁ + σ₃)."""
+    """Angle of friction [°] of a rock without cohesion that fails under σ₃ = ``minor`` at σ₁ = ``major`` [Pa]: sin φ =
+    (σ₁ − σ₃)/(σ₁ + σ₃).
+    """
     return math.degrees(math.asin((major - minor) / (major + minor)))
 
 

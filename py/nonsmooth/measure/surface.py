@@ -10,10 +10,11 @@ __all__ = ["deposit_profile", "on_ground"]
 def deposit_profile(snapshot, walls, bin_m=None):
     """Surface and base of the granular mass along x.
 
-    Returns x, base, surface [m], each of shape (bins,), in the direction of the slope, NaN where there is no disk (or no wall below). The surface is
-    the highest point of any disk in a bin of ``bin_m`` (default: three mean diameters), the base the lowest wall at
-    that x, obstacles apart; the thickness, surface minus base, is vertical. Bins that hold less than a tenth of the mean number of
-    disks are left out of the surface, so that single disks in flight do not count.
+    Returns x, base, surface [m], each of shape (bins,), in the direction of the slope, NaN where there is no disk (or
+    no wall below). The surface is the highest point of any disk in a bin of ``bin_m`` (default: three mean diameters),
+    the base the lowest wall at that x, obstacles apart; the thickness, surface minus base, is vertical. Bins that hold
+    less than a tenth of the mean number of disks are left out of the surface, so that single disks in flight do not
+    count.
     """
     ground = ground_of(walls)
     bin_m, ahead = bin_m or 6 * float(snapshot.r.mean()), ground.side * snapshot.x
@@ -32,7 +33,9 @@ def deposit_profile(snapshot, walls, bin_m=None):
 
 
 def on_ground(x, walls):
-    """Whether the lowest wall at each of ``x`` [m], (n,), is ground, the surface that a mass runs out over, and neither slip surface nor backstop: bool (n,). So the hollow in front of a backstop is none."""
+    """Whether the lowest wall at each of ``x`` [m], (n,), is ground, the surface that a mass runs out over, and neither
+    slip surface nor backstop: bool (n,). So the hollow in front of a backstop is none.
+    """
     ground = ground_of(walls)
     return np.nan_to_num(_base(x, ground, ("ground",)), nan=np.inf) <= np.nan_to_num(_base(x, ground), nan=-np.inf)
 

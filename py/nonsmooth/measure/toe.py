@@ -1,16 +1,19 @@
-"""Water table at which the toe of a slab reaches its passive strength, from a measured envelope of the rock. Needs no YADE.
+"""Water table at which the toe of a slab reaches its passive strength, from a measured envelope of the rock. Needs no
+YADE.
 
-A slab of bulk weight γ, thickness H at its toe, dips by β on a plane with friction μ and is held by a backstop perpendicular to the plane. Per metre of
-thickness, with W the weight of all layers, h the height of the water table over the plane, U(h) what the water lifts along the normal and S(h) what it pushes
-down the plane, both by −∇p on the volume of every disk below the table (Taboada and Estrada 2009, eq. 7; where it flows along the plane they are γ_w cos β and
-nothing, eq. 18):
+A slab of bulk weight γ, thickness H at its toe, dips by β on a plane with friction μ and is held by a backstop
+perpendicular to the plane. Per metre of thickness, with W the weight of all layers, h the height of the water table
+over the plane, U(h) what the water lifts along the normal and S(h) what it pushes down the plane, both by −∇p on the
+volume of every disk below the table (Taboada and Estrada 2009, eq. 7; where it flows along the plane they are γ_w cos β
+and nothing, eq. 18):
 
     push        P(h) = W sin β + S(h) − μ (W cos β − U(h))              the plane at its limit (paper, eq. 20),
     resistance  R(h) = ∫₀ᴴ [ K_p σ'(z, h) + 2 c √K_p ] dz ,  K_p = tan²(45° + φ/2)     Rankine's passive state along the slab,
     σ'(z, h) = γ cos β z − w max(0, z − H + h)                            effective normal stress at the depth z, w the lift per volume of bulk.
 
-The toe fails where P = R. Neglected: the shear stress γ sin β z on planes parallel to the slab, friction on the backstop, friction of the plane below
-the wedge, and that the toe fails progressively; the first lowers the resistance, the next two raise it. So the height is an estimate to some 20 %.
+The toe fails where P = R. Neglected: the shear stress γ sin β z on planes parallel to the slab, friction on the
+backstop, friction of the plane below the wedge, and that the toe fails progressively; the first lowers the resistance,
+the next two raise it. So the height is an estimate to some 20 %.
 """
 
 from __future__ import annotations
@@ -29,8 +32,9 @@ SLICE = 0.01  # of the slab's length, in which its thickness at the toe is looke
 
 @dataclass(frozen=True)
 class Toe:
-    """``water_m``: height of the water table at failure, None where the toe bears any or not even the dry slab; ``thickness_m``: H; ``push``, ``resistance``
-    [N/m]: dry, and at failure where there is one; ``softening`` [N/m³]: by how much water of the height h takes the resistance, divided by h².
+    """``water_m``: height of the water table at failure, None where the toe bears any or not even the dry slab;
+    ``thickness_m``: H; ``push``, ``resistance`` [N/m]: dry, and at failure where there is one; ``softening`` [N/m³]: by
+    how much water of the height h takes the resistance, divided by h².
     """
 
     water_m: float | None
@@ -46,7 +50,8 @@ class Toe:
 
 
 def passive(section, cohesion, friction_deg, packing_fraction):
-    """The Toe of a Section with water above a wall; ``cohesion`` [Pa], ``friction_deg`` [°] of its rock, ``packing_fraction`` of disks in the layers.
+    """The Toe of a Section with water above a wall; ``cohesion`` [Pa], ``friction_deg`` [°] of its rock,
+    ``packing_fraction`` of disks in the layers.
 
     Raises ValueError for a section without water above a wall.
     """

@@ -1,4 +1,6 @@
-"""How far a mass has come beside how deep it has fallen: the travel angle, or fahrböschung (Heim 1932; Taboada and Estrada 2009, [21], [22])."""
+"""How far a mass has come beside how deep it has fallen: the travel angle, or fahrböschung (Heim 1932; Taboada and
+Estrada 2009, [21], [22]).
+"""
 
 from __future__ import annotations
 
@@ -14,11 +16,14 @@ NAMES = ("travel_drop_m", "travel_run_m", "travel_angle_deg", "centroid_drop_m",
 
 
 def travel(start, end, density, side=1.0, mass=None) -> dict[str, float | None]:
-    """The numbers of :data:`NAMES`: drop and run [m] between the extreme points along the profile, from the highest point of the mass as it stood to the foot of its front as it came to rest, with
-    the angle of the line through both, arctan(drop / run) [degrees]; and the same of the centre of mass. An angle is None where there is no run down the slope.
+    """The numbers of :data:`NAMES`: drop and run [m] between the extreme points along the profile, from the highest
+    point of the mass as it stood to the foot of its front as it came to rest, with the angle of the line through both,
+    arctan(drop / run) [degrees]; and the same of the centre of mass. An angle is None where there is no run down the
+    slope.
 
-    ``start``, ``end``: Snapshots; ``density``: that of each layer [kg/m³], (layers,); ``side``: 1 for a slope that falls to the right, −1 to the left; ``mass``: numbers of the layers
-    that are the mass, all where None. The front is that of :func:`.fronts.front_of`, without a few runaway disks.
+    ``start``, ``end``: Snapshots; ``density``: that of each layer [kg/m³], (layers,); ``side``: 1 for a slope that
+    falls to the right, −1 to the left; ``mass``: numbers of the layers that are the mass, all where None. The front is
+    that of :func:`.fronts.front_of`, without a few runaway disks.
     """
     x, y, r, weight = _mass(start, density, mass)
     x1, y1, r1, weight1 = _mass(end, density, mass)

@@ -1,13 +1,15 @@
-"""Speed along the floor against height in a mass that spreads: the border between what has come to rest and what flows, and which of three regimes a profile shows (Taboada and
-Estrada 2009, section 4.2.4, Figure 7).
+"""Speed along the floor against height in a mass that spreads: the border between what has come to rest and what flows,
+and which of three regimes a profile shows (Taboada and Estrada 2009, section 4.2.4, Figure 7).
 
-Behind its tip a spreading mass moves as a *plug* over a thin sheared sole ([67]); farther back its speed grows evenly with height, a *simple shear* ([68]); at its rear a layer that flows
-lies on one that has come to rest, *two layers* ([69]). Two numbers of a profile u(z), 0 ≤ z ≤ h, with the largest speed U, tell them apart:
+Behind its tip a spreading mass moves as a *plug* over a thin sheared sole ([67]); farther back its speed grows evenly
+with height, a *simple shear* ([68]); at its rear a layer that flows lies on one that has come to rest, *two layers*
+([69]). Two numbers of a profile u(z), 0 ≤ z ≤ h, with the largest speed U, tell them apart:
 
     fullness  f = ∫ u dz / (U h)      1 of a plug, 1/2 of a simple shear,
     rest      s = z_i / h             the share of the height below the border z_i, where u falls to a tenth of U.
 
-A profile has two layers where s is above :data:`LAYERED`; else it is a plug where f is above :data:`PLUG`, midway between the two, and a simple shear below. Needs no YADE.
+A profile has two layers where s is above :data:`LAYERED`; else it is a plug where f is above :data:`PLUG`, midway
+between the two, and a simple shear below. Needs no YADE.
 """
 
 from __future__ import annotations
@@ -27,8 +29,8 @@ REGIMES = ("plug", "simple shear", "two layers", "at rest")
 
 @dataclass(frozen=True)
 class Profile:
-    """``z``: middles of layers [m], (n,); ``speed``: mean horizontal speed of the disks in each [m/s], (n,); ``height``: h [m]; ``border``: z_i [m]; ``fullness``: f; ``regime``: of
-    :data:`REGIMES`."""
+    """``z``: middles of layers [m], (n,); ``speed``: mean horizontal speed of the disks in each [m/s], (n,);
+    ``height``: h [m]; ``border``: z_i [m]; ``fullness``: f; ``regime``: of :data:`REGIMES`."""
 
     z: np.ndarray
     speed: np.ndarray
@@ -39,15 +41,18 @@ class Profile:
 
 
 def midway(first, then):
-    """Places and speeds from two looks at the same disks, each (time [s], x, y) with arrays (n,) [m]: x, y, u, v in the middle of the time between, by differences."""
+    """Places and speeds from two looks at the same disks, each (time [s], x, y) with arrays (n,) [m]: x, y, u, v in the
+    middle of the time between, by differences.
+    """
     (t0, x0, y0), (t1, x1, y1) = first, then
     x0, y0, x1, y1 = (np.asarray(values, float) for values in (x0, y0, x1, y1))
     return 0.5 * (x0 + x1), 0.5 * (y0 + y1), (x1 - x0) / (t1 - t0), (y1 - y0) / (t1 - t0)
 
 
 def profile(x, y, r, u, left, right, layer):
-    """Mean ``u`` of the disks between two places ``left`` and ``right`` [m], in layers of a thickness ``layer`` [m] from y = 0 up, each disk by its area: middles of the layers [m] and
-    speeds, (n,). Layers end below the first one that disks do not fill to :data:`FILLED`. Arrays x, y, r, u of (disks,).
+    """Mean ``u`` of the disks between two places ``left`` and ``right`` [m], in layers of a thickness ``layer`` [m]
+    from y = 0 up, each disk by its area: middles of the layers [m] and speeds, (n,). Layers end below the first one
+    that disks do not fill to :data:`FILLED`. Arrays x, y, r, u of (disks,).
     """
     inside = (x >= left) & (x < right) & (y >= 0)
     k, area = (y[inside] / layer).astype(int), np.pi * r[inside] ** 2
@@ -58,7 +63,9 @@ def profile(x, y, r, u, left, right, layer):
 
 
 def border(z, speed):
-    """Height [m] of the border between what rests and what flows: where the speed, from its largest value down, first falls to :data:`SLOW` of it; 0 where it does not. ``z``, ``speed``: (n,)."""
+    """Height [m] of the border between what rests and what flows: where the speed, from its largest value down, first
+    falls to :data:`SLOW` of it; 0 where it does not. ``z``, ``speed``: (n,).
+    """
     top = int(np.argmax(speed))
     limit = SLOW * speed[top]
     slow = np.flatnonzero(speed[:top] < limit)
@@ -74,12 +81,16 @@ def fullness(speed):
 
 
 def regime(rest, full):
-    """The regime, of :data:`REGIMES`, of a profile with the share ``rest`` of its height at rest and the fullness ``full``."""
+    """The regime, of :data:`REGIMES`, of a profile with the share ``rest`` of its height at rest and the fullness
+    ``full``.
+    """
     return "two layers" if rest > LAYERED else "plug" if full > PLUG else "simple shear"
 
 
 def measure(x, y, r, u, left, right, layer, least=0.0):
-    """The :class:`Profile` between two places, see :func:`profile`; None without disks there. A mass whose largest speed is not above ``least`` [m/s] is at rest to its surface."""
+    """The :class:`Profile` between two places, see :func:`profile`; None without disks there. A mass whose largest
+    speed is not above ``least`` [m/s] is at rest to its surface.
+    """
     z, speed = profile(x, y, r, u, left, right, layer)
     if not len(z):
         return None
@@ -91,6 +102,8 @@ def measure(x, y, r, u, left, right, layer, least=0.0):
 
 
 def borders(x, y, r, u, edges, layer, least=0.0):
-    """Height of the border [m] between neighbouring ``edges`` [m], (n + 1,): (n,), NaN where there are no disks. Arguments as of :func:`measure`."""
+    """Height of the border [m] between neighbouring ``edges`` [m], (n + 1,): (n,), NaN where there are no disks.
+    Arguments as of :func:`measure`.
+    """
     found = (measure(x, y, r, u, a, b, layer, least) for a, b in zip(edges[:-1], edges[1:]))
     return np.array([np.nan if one is None else one.border for one in found])

@@ -1,4 +1,6 @@
-"""Which part of a slip surface has lost its strength: where the disks on it have slipped further than D_c (Taboada and Estrada 2009, section 5.3)."""
+"""Which part of a slip surface has lost its strength: where the disks on it have slipped further than D_c (Taboada and
+Estrada 2009, section 5.3).
+"""
 
 import numpy as np
 
@@ -9,7 +11,9 @@ NEAR = 0.25  # mean diameters between a disk and the surface that it is on: in m
 
 
 def downwards(line, side=1.0):
-    """The vertices (n, 2) [m] of a surface from its upper end on: the left one of a slope that falls to the right (``side`` 1), the right one of another (−1)."""
+    """The vertices (n, 2) [m] of a surface from its upper end on: the left one of a slope that falls to the right
+    (``side`` 1), the right one of another (−1).
+    """
     line = np.asarray(line, float)
     return line if side * line[0, 0] <= side * line[-1, 0] else line[::-1]
 
@@ -17,9 +21,10 @@ def downwards(line, side=1.0):
 def weakened_share(snapshot, line, column, side=1.0):
     """What part of the disks on a surface is weakened there, along the surface.
 
-    On an interface these are the disks of both its layers. ``line``: its vertices (n, 2) [m]; ``column``: its number in :attr:`.records.Snapshot.weakened`, which must be
-    known; ``side``: see :func:`downwards`.
-    Returns the edges of bins of about three mean diameters, (bins + 1,) [m] along the surface from its upper end, and the share in each, (bins,), NaN where no disk is.
+    On an interface these are the disks of both its layers. ``line``: its vertices (n, 2) [m]; ``column``: its number in
+    :attr:`.records.Snapshot.weakened`, which must be known; ``side``: see :func:`downwards`.
+    Returns the edges of bins of about three mean diameters, (bins + 1,) [m] along the surface from its upper end, and
+    the share in each, (bins,), NaN where no disk is.
     """
     line = downwards(line, side)
     diameter = 2 * float(snapshot.r.mean())
@@ -35,7 +40,9 @@ def weakened_share(snapshot, line, column, side=1.0):
 
 
 def _projected(snapshot, line, leg):
-    """Of each disk's centre: the place along a polyline that is nearest to it [m], and its distance from there [m]; infinite beyond the ends."""
+    """Of each disk's centre: the place along a polyline that is nearest to it [m], and its distance from there [m];
+    infinite beyond the ends.
+    """
     along, off = np.zeros(len(snapshot.x)), np.full(len(snapshot.x), np.inf)
     for k, size in enumerate(leg):
         t = (line[k + 1] - line[k]) / size
@@ -62,7 +69,9 @@ def stretches(edges, share):
 
 
 def foot_length(edges, share):
-    """Length [m] of the lowest part of a surface where fewer than half of the disks are weakened, or none is; from :func:`weakened_share`."""
+    """Length [m] of the lowest part of a surface where fewer than half of the disks are weakened, or none is; from
+    :func:`weakened_share`.
+    """
     weak = np.flatnonzero(_weak(share))
     return float(edges[-1] - edges[weak[-1] + 1 if len(weak) else 0])
 

@@ -1,7 +1,8 @@
 """The free surface of a section's layers: the part of their outline that no wall holds. Needs no YADE.
 
-A mass of disks without friction that is drawn everywhere along the normal of the nearest free face, into the mass, is in balance with the surface as it is, whatever its
-shape: the pull has a potential, the depth below the surface, and the surface is a level of it. Horizontal ground is the special case that gravity has.
+A mass of disks without friction that is drawn everywhere along the normal of the nearest free face, into the mass, is
+in balance with the surface as it is, whatever its shape: the pull has a potential, the depth below the surface, and the
+surface is a level of it. Horizontal ground is the special case that gravity has.
 """
 
 from __future__ import annotations
@@ -16,7 +17,9 @@ PRESSED = 0.011  # of the thickness: what a packing of the shipped density and g
 
 
 def faces(section) -> geometry.Edges:
-    """The free edges of the layers' outline, the mass on their left; those of a ring follow each other as they do there. Edges are cut where walls end."""
+    """The free edges of the layers' outline, the mass on their left; those of a ring follow each other as they do
+    there. Edges are cut where walls end.
+    """
     table, walls = geometry.edges(section.outline), _walls(section)
     reach = 3 * section.tolerance
     found = []
@@ -37,7 +40,9 @@ def faces(section) -> geometry.Edges:
 
 
 def inward(section, x, y):
-    """Unit vectors (n, 2) along which the depth grows at points (arrays x, y [m], shape (n,)), and their depths [m] below the nearest free face, negative outside the layers."""
+    """Unit vectors (n, 2) along which the depth grows at points (arrays x, y [m], shape (n,)), and their depths [m]
+    below the nearest free face, negative outside the layers.
+    """
     free, points = faces(section), np.column_stack((x, y))
     away, way, which = geometry.nearest(points, *_ends(free))
     inside = np.zeros(len(points), bool)
@@ -53,10 +58,12 @@ def inward(section, x, y):
 
 
 def raised(section, share):
-    """The layers' outline with its free surface moved outward by a ``share`` of the thickness below it, a shapely MultiPolygon.
+    """The layers' outline with its free surface moved outward by a ``share`` of the thickness below it, a shapely
+    MultiPolygon.
 
-    The thickness at a vertex is the distance to the walls, along the face's normal, from a point of the face a largest diameter away, and no more than the greatest depth of
-    the part that it belongs to; where the surface meets a wall it slides along it.
+    The thickness at a vertex is the distance to the walls, along the face's normal, from a point of the face a largest
+    diameter away, and no more than the greatest depth of the part that it belongs to; where the surface meets a wall it
+    slides along it.
     """
     free, walls, step = _ends(faces(section)), _walls(section), section.largest
     polygons = []
@@ -83,7 +90,9 @@ def raised(section, share):
 
 
 def lifted(section, line, share):
-    """A polyline (n, 2) from left to right within the layers, moved up by a ``share`` of the thickness between it and the walls below."""
+    """A polyline (n, 2) from left to right within the layers, moved up by a ``share`` of the thickness between it and
+    the walls below.
+    """
     walls, along = _walls(section), np.gradient(line, axis=0)
     up = np.column_stack((-along[:, 1], along[:, 0])) / geometry.distance(*along.T)[:, None]
     return line + up * [[share * _thickness(point, -n, walls)] for point, n in zip(line, up)]
@@ -97,7 +106,9 @@ def _greatest_depth(table, free):
 
 
 def _moved(table, is_free, first, count, rise, step):
-    """Vertices of a ring, edges ``first`` to ``first + count``, each moved so that its free edges go outward by ``rise(point, way in)`` of a point ``step`` [m] away."""
+    """Vertices of a ring, edges ``first`` to ``first + count``, each moved so that its free edges go outward by
+    ``rise(point, way in)`` of a point ``step`` [m] away.
+    """
     moved = []
     for k in range(count):
         edges = [first + (k - 1) % count, first + k]
@@ -126,7 +137,9 @@ def _thickness(point, direction, walls):
 
 
 def _dot(points, way):
-    """Scalar products of vectors (…, 2) with one (2,); unlike those of BLAS they have the same bits with every library."""
+    """Scalar products of vectors (…, 2) with one (2,); unlike those of BLAS they have the same bits with every
+    library.
+    """
     return points[..., 0] * way[0] + points[..., 1] * way[1]
 
 

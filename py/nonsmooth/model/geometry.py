@@ -4,8 +4,8 @@ Shapely (1.8 of Debian 12 and 2.x of Debian 13) does the work; here is only what
 name for. Vertices are arrays or tuples of shape (n, 2); a polygon is not closed by repeating
 its first vertex.
 
-What a packing depends on has the same bits with every version of Shapely, GEOS and the C library: places come from the given vertices, lengths from
-square roots (`hypot` is not specified to the last bit), sums from `fsum`.
+What a packing depends on has the same bits with every version of Shapely, GEOS and the C library: places come from the
+given vertices, lengths from square roots (`hypot` is not specified to the last bit), sums from `fsum`.
 """
 
 from __future__ import annotations
@@ -65,7 +65,9 @@ def pieces(polylines):
 
 
 def nearest(points, start, end):
-    """Distance [m] of points (n, 2) from the nearest of segments, the vector from there to the point, (n, 2), and the segment's number."""
+    """Distance [m] of points (n, 2) from the nearest of segments, the vector from there to the point, (n, 2), and the
+    segment's number.
+    """
     least, way, which = np.full(len(points), np.inf), np.zeros((len(points), 2)), np.zeros(len(points), int)
     for k, (a, b) in enumerate(zip(start, end)):
         along = b - a
@@ -87,9 +89,10 @@ def area(vertices) -> float:
 def outline(polygons, tolerance: float) -> MultiPolygon:
     """Union of `polygons` (shapely, [m]), slits narrower than `tolerance` [m] closed, without idle vertices.
 
-    Versions of GEOS begin rings elsewhere, differ in last bits, and simplify differently. So a vertex that lies within 3 `tolerance` of one of the
-    polygons' own is that one, others are rounded to `tolerance`/64, every ring begins at its leftmost, lowest vertex, and from there on vertices go that
-    lie within 2 `tolerance` of the line through their neighbours.
+    Versions of GEOS begin rings elsewhere, differ in last bits, and simplify differently. So a vertex that lies within
+    3 `tolerance` of one of the polygons' own is that one, others are rounded to `tolerance`/64, every ring begins at
+    its leftmost, lowest vertex, and from there on vertices go that lie within 2 `tolerance` of the line through their
+    neighbours.
     """
     closed = unary_union([p.buffer(tolerance, join_style=2) for p in polygons])
     closed = closed.buffer(-tolerance, join_style=2)
@@ -128,7 +131,9 @@ def _exact(ring, given, tolerance):
 
 
 def border(one: Polygon, other: Polygon, tolerance: float) -> np.ndarray:
-    """The longest stretch along which the rims of two polygons run together, from left to right, (n, 2) [m]; empty where there is none."""
+    """The longest stretch along which the rims of two polygons run together, from left to right, (n, 2) [m]; empty
+    where there is none.
+    """
     longest = LineString()
     for rim in (other.exterior, other.exterior.buffer(3 * tolerance)):  # by equal vertices, or nearly so
         common = one.exterior.intersection(rim)
@@ -213,7 +218,9 @@ def edges(region) -> Edges:
 
 
 def sides(line) -> tuple[Edges, Edges]:
-    """Edges of a polyline (n, 2) from left to right, for what lies on its left, above it, and for what lies on its right."""
+    """Edges of a polyline (n, 2) from left to right, for what lies on its left, above it, and for what lies on its
+    right.
+    """
 
     def of(points):
         along = np.diff(points, axis=0)

@@ -1,6 +1,7 @@
 """Materials of laboratory tests: those of the paper's Table 1 by name, others from a file.
 
-A material file is YAML with the keys that a material has in a section file, as ``friction: 0.3``; see ``sections/jiufengershan.yaml``.
+A material file is YAML with the keys that a material has in a section file, as ``friction: 0.3``; see
+``sections/jiufengershan.yaml``.
 """
 
 from __future__ import annotations
@@ -23,7 +24,8 @@ SHIPPED = {"wwr": "rock", "dp": "dp", "fb": "fb", "ss": "ss"}
 
 
 def load(name_or_path, option="--material"):
-    """A section.Material by its name in :data:`SHIPPED`, or from a material file. ``option``: by which a command was given it, for messages.
+    """A section.Material by its name in :data:`SHIPPED`, or from a material file. ``option``: by which a command was
+    given it, for messages.
 
     Raises SectionError, naming file, line, key, value and remedy.
     """
@@ -32,7 +34,9 @@ def load(name_or_path, option="--material"):
 
 
 def data(name_or_path, option="--rock") -> dict:
-    """The plain data of a material, nothing filled in: what its file, or that of the shipped section, says. Arguments, and what it raises, as of :func:`load`."""
+    """The plain data of a material, nothing filled in: what its file, or that of the shipped section, says. Arguments,
+    and what it raises, as of :func:`load`.
+    """
     return _document(name_or_path, option)[1].data
 
 
@@ -56,7 +60,9 @@ def _document(name_or_path, option):
     SectionError, material=checks.kind(section.Material, "give a section.Material, as load('wwr') returns one")
 )
 def bare(material):
-    """The material without what rules nothing in a test: what was measured before, and the weakening of walls by slip."""
+    """The material without what rules nothing in a test: what was measured before, and the weakening of walls by
+    slip.
+    """
     return dataclasses.replace(material, slip_weakening=None, envelope=None)
 
 

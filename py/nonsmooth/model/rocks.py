@@ -1,12 +1,15 @@
-"""Contact parameters of a rock that is asked for by its cohesion c and angle of friction φ, from a table of calibrated rocks. Needs no YADE.
+"""Contact parameters of a rock that is asked for by its cohesion c and angle of friction φ, from a table of calibrated
+rocks. Needs no YADE.
 
-``sections/rocks.json`` has c/σ_ext and φ of samples with some frictions μ_s of their contacts (:mod:`.laboratory.rock_table` measured them). The law:
+``sections/rocks.json`` has c/σ_ext and φ of samples with some frictions μ_s of their contacts
+(:mod:`.laboratory.rock_table` measured them). The law:
 
     μ_s  from φ: ln μ_s linear in φ between the rocks of the table,
     σ_ext = c / (c/σ_ext), with ln(c/σ_ext) linear in ln μ_s between them.
 
-The second is exact in σ_ext: rigid disks know no other stress than σ_ext and the pressure, so samples whose strengths are all k times as large bear k times the
-stresses at the same strains. The first leaves an error, which the table states beside the scatter of samples.
+The second is exact in σ_ext: rigid disks know no other stress than σ_ext and the pressure, so samples whose strengths
+are all k times as large bear k times the stresses at the same strains. The first leaves an error, which the table
+states beside the scatter of samples.
 """
 
 from __future__ import annotations
@@ -36,13 +39,16 @@ FILE = Path(__file__).resolve().parents[1] / "sections" / "rocks.json"
 ASKED = ("cohesion", "friction_angle")  # the keys that ask for a rock of the table
 # degrees of φ that samples of disks reach: without friction between disks, and with as much as there may be
 REACHED = (6.0, 60.0)
-DIGITS = 4  # of exponentials, whose last bits are a processor's own, and a slope grows them; of these alone, so that strengths go with the cohesion to the last bit
+# of exponentials, whose last bits are a processor's own, and a slope grows them; of these alone, so that strengths go
+# with the cohesion to the last bit
+DIGITS = 4
 
 
 @dataclass(frozen=True)
 class Contacts:
-    """``friction`` μ_s and ``tensile_strength`` σ_ext [Pa] of contacts; what a sample, of as many disks as those of the table, may differ by from the c
-    and φ that were asked for (half of the 95 % interval): ``cohesion_95_rel``, relative, under other pressures than the table's too, and ``friction_angle_95_deg`` [degrees].
+    """``friction`` μ_s and ``tensile_strength`` σ_ext [Pa] of contacts; what a sample, of as many disks as those of the
+    table, may differ by from the c and φ that were asked for (half of the 95 % interval): ``cohesion_95_rel``,
+    relative, under other pressures than the table's too, and ``friction_angle_95_deg`` [degrees].
     """
 
     friction: float
@@ -108,7 +114,8 @@ def _fixed() -> dict:
 
 
 def resolved(raw: dict, refuse) -> dict:
-    """The data of a material that is asked for by :data:`ASKED`, with contact parameters in their place, and what was asked for as the ``envelope``; other data as they are.
+    """The data of a material that is asked for by :data:`ASKED`, with contact parameters in their place, and what was
+    asked for as the ``envelope``; other data as they are.
 
     ``refuse(keys, what, remedy)``: raises, for what the table cannot give or was not measured with.
     """
@@ -177,13 +184,17 @@ def resolved(raw: dict, refuse) -> dict:
 
 
 def like_table(material) -> bool:
-    """Whether a section.Material has the contact parameters that are fixed in the table, so that the table may say what its others make."""
+    """Whether a section.Material has the contact parameters that are fixed in the table, so that the table may say what
+    its others make.
+    """
     plain = lambda value: list(value) if isinstance(value, tuple) else value  # noqa: E731
     return all(plain(getattr(material, key)) == value for key, value in _fixed().items())
 
 
 def asked(material) -> Contacts | None:
-    """The Contacts of the table for the envelope of a section.Material whose contact parameters are these; None for another material."""
+    """The Contacts of the table for the envelope of a section.Material whose contact parameters are these; None for
+    another material.
+    """
     e = material.envelope
     low, high = interval()
     if e is None or not (e.cohesion > 0 and low <= e.friction_deg <= high and like_table(material)):
@@ -195,7 +206,9 @@ def asked(material) -> Contacts | None:
 
 
 def other_samples(disks, pressed) -> str:
-    """How the samples of the table differ from layers of the section_parts.Disks in a list, ``pressed`` or not, in words; "" where they do not."""
+    """How the samples of the table differ from layers of the section_parts.Disks in a list, ``pressed`` or not, in
+    words; "" where they do not.
+    """
     samples = table()["samples"]
     ratio, kind, fraction = (samples[key] for key in ("largest_over_smallest", "distribution", "packing_fraction"))
     found = []

@@ -7,8 +7,8 @@
 
 A section file says so with ``role``. Where it does not:
 
-* slip is the wall from which water is measured, and each whose strength falls with slip; where there is none, and no interface is a slip surface, the one along
-  which the layers lie longest;
+* slip is the wall from which water is measured, and each whose strength falls with slip; where there is none, and no
+  interface is a slip surface, the one along which the layers lie longest;
 * backstop is each other wall that layers lie against and that faces upslope, by 30° or more;
 * ground are the others.
 
@@ -58,7 +58,9 @@ def assigned(section):
 
 
 def chord(lines):
-    """The vector (x, y) [m] along which polylines, each of shape (n, 2) [m], fall from end to end, added up; a level one counts to the right."""
+    """The vector (x, y) [m] along which polylines, each of shape (n, 2) [m], fall from end to end, added up; a level
+    one counts to the right.
+    """
     total = np.zeros(2)
     for points in lines:
         if len(points) < 2:
@@ -81,7 +83,9 @@ def _leaning(section, wall):
 
 
 def _facing(wall, lean, down):
-    """Mean of (unit normal, into the mass) · (unit vector along ``down``) over where the mass leans against a wall; disks are on the left of a wall."""
+    """Mean of (unit normal, into the mass) · (unit vector along ``down``) over where the mass leans against a wall;
+    disks are on the left of a wall.
+    """
     way = np.diff(wall.points, axis=0)
     sines = (-way[:, 1] * down[0] + way[:, 0] * down[1]) / np.hypot(*way.T)
     return float(np.average(sines, weights=lean)) / (math.hypot(*down) or 1.0)

@@ -1,7 +1,8 @@
 """Speeds and times that decide the course of a slope's run, in proportion to the slope.
 
-Two slopes of one shape and of sizes L and L' do the same if speeds are in the ratio √(g L / g' L') and times in the ratio √(L g' / L' g) (Froude). So what
-is fixed for the shipped section, with L the root of the layers' area, is scaled for any other; for the shipped one it has these values to the last bit.
+Two slopes of one shape and of sizes L and L' do the same if speeds are in the ratio √(g L / g' L') and times in the
+ratio √(L g' / L' g) (Froude). So what is fixed for the shipped section, with L the root of the layers' area, is scaled
+for any other; for the shipped one it has these values to the last bit.
 """
 
 from __future__ import annotations
@@ -17,11 +18,14 @@ GRAVITY = 9.81  # m/s²
 
 @dataclass(frozen=True)
 class Scales:
-    """``row_seconds``: between two rows of the series; ``mean_seconds``: over which forces are averaged for characteristic times; ``still_seconds``: without
-    change, after which a solve is tighter; ``moving_speed``, ``stopped_speed``, ``going_speed``, ``approach_speed`` [m/s]: see :mod:`yade.nonsmooth.course.slope`, :mod:`yade.nonsmooth.studies.slope.slope`;
-    ``correction_speed`` [m/s]: with which errors of position are taken back at most, the solver's own but for a similar section.
+    """``row_seconds``: between two rows of the series; ``mean_seconds``: over which forces are averaged for
+    characteristic times; ``still_seconds``: without change, after which a solve is tighter; ``moving_speed``,
+    ``stopped_speed``, ``going_speed``, ``approach_speed`` [m/s]: see :mod:`yade.nonsmooth.course.slope`,
+    :mod:`yade.nonsmooth.studies.slope.slope`; ``correction_speed`` [m/s]: with which errors of position are taken back
+    at most, the solver's own but for a similar section.
 
-    The first two are rounded to 1, 2 or 5 times a power of ten (but for a similar section), and no shorter than a time step.
+    The first two are rounded to 1, 2 or 5 times a power of ten (but for a similar section), and no shorter than a time
+    step.
     """
 
     row_seconds: float

@@ -66,8 +66,8 @@ def pack(section, seed: int | None = None, progress=None) -> Packing:
     inside the layers' outline, overlap nowhere by more than 1e-3 of their diameter, and stay
     within about a diameter of their layer. Takes about 2 s for 3,000 disks, 10 s for 21,000.
     Layers that will be pressed are filled a little higher (:attr:`.section.Section.packed_outline`).
-    A slope that falls to the left gets the mirrored disks of its mirrored section, a similar one those of its original (`Section.like`). Raises PackingError
-    where the disks do not go in.
+    A slope that falls to the left gets the mirrored disks of its mirrored section, a similar one those of its original
+    (`Section.like`). Raises PackingError where the disks do not go in.
     """
     if section.like:
         original, factor = section.like
@@ -121,7 +121,9 @@ def _draw(section, rng):
 
 
 def _borders(section, layer):
-    """Tables of edges, each with the disks that they act on (bool by disk, None: all): of the layers' outline, and on both sides of each flat interface."""
+    """Tables of edges, each with the disks that they act on (bool by disk, None: all): of the layers' outline, and on
+    both sides of each flat interface.
+    """
     found = [(geometry.edges(section.packed_outline), None)]
     for interface in section.interfaces:
         if interface.flat and len(line := section.line_of(interface)):

@@ -24,7 +24,9 @@ AWAY = 2.0  # ... and from the disk's own one
 
 
 def sparse_layers(packing, section) -> list:
-    """Sentences, one for each layer of the section with fewer than :data:`FEWEST` disks in the packing; obstacles are bodies, and may have as few as they like."""
+    """Sentences, one for each layer of the section with fewer than :data:`FEWEST` disks in the packing; obstacles are
+    bodies, and may have as few as they like.
+    """
     count = np.bincount(packing.layer, minlength=len(section.layers))
     return [
         f"LAYER {layer.name} HOLDS {n} DISKS: fewer than {FEWEST} tell little of a layer; give it smaller disks (its own `disks`), or ask for more (--disks)"
@@ -34,7 +36,9 @@ def sparse_layers(packing, section) -> list:
 
 
 def check(packing, section, source) -> None:
-    """Raise PackingError where `packing`, read from `source`, is none of `section`: layers, sizes, overlaps, places, or how much of the layers it fills."""
+    """Raise PackingError where `packing`, read from `source`, is none of `section`: layers, sizes, overlaps, places, or
+    how much of the layers it fills.
+    """
     remedy = "give a packing of this section, or the section that it was made for"
     refuse = lambda what, helps=remedy: PackingError(f"{source}: {what}; {helps}")  # noqa: E731
     at = lambda k: f"disk {k} at ({packing.x[k]:.6g}, {packing.y[k]:.6g}) m"  # noqa: E731

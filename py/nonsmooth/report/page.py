@@ -1,4 +1,6 @@
-"""Fills a page's template, which extends ``page.html.j2`` and takes its tables and figures from ``parts.html.j2``. Needs no YADE."""
+"""Fills a page's template, which extends ``page.html.j2`` and takes its tables and figures from ``parts.html.j2``.
+Needs no YADE.
+"""
 
 from __future__ import annotations
 
@@ -15,8 +17,9 @@ __all__ = ["write"]
 
 
 def write(path, template, filters=None, **values) -> Path:
-    """Writes the page: ``template``: the Path of its own template; ``filters``: {name: function} and ``values`` that it takes besides. A template has the filters
-    ``image`` (a PNG's path, from the page's folder or absolute, as data) and ``prose`` (reStructuredText as HTML), and the value ``date``.
+    """Writes the page: ``template``: the Path of its own template; ``filters``: {name: function} and ``values`` that it
+    takes besides. A template has the filters ``image`` (a PNG's path, from the page's folder or absolute, as data) and
+    ``prose`` (reStructuredText as HTML), and the value ``date``.
 
     Returns the path. Raises WriteError.
     """

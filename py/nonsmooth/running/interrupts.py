@@ -20,14 +20,18 @@ _patient = False
 
 
 def be_patient():
-    """From now on a second Ctrl-C within :func:`noted` is as good as one: for a process that may hear it from the terminal and from the command that started it."""
+    """From now on a second Ctrl-C within :func:`noted` is as good as one: for a process that may hear it from the
+    terminal and from the command that started it.
+    """
     global _patient
     _patient = True
 
 
 @contextlib.contextmanager
 def never_lost():
-    """Within the block a Ctrl-C that comes while Python is done with an object (in a ``__del__``), where an exception is told and forgotten, comes again a moment later."""
+    """Within the block a Ctrl-C that comes while Python is done with an object (in a ``__del__``), where an exception
+    is told and forgotten, comes again a moment later.
+    """
     before = sys.unraisablehook
 
     def again(lost):
@@ -47,10 +51,11 @@ def never_lost():
 
 @contextlib.contextmanager
 def noted():
-    """Within the block Ctrl-C only leaves a note; gives a function that tells whether it came. A second one ends the block at once.
+    """Within the block Ctrl-C only leaves a note; gives a function that tells whether it came. A second one ends the
+    block at once.
 
-    A note that the block did not act upon becomes a KeyboardInterrupt when it ends. Outside the main thread, which alone hears of signals, and in a
-    process that ignores Ctrl-C, as a shell's background jobs do, nothing changes.
+    A note that the block did not act upon becomes a KeyboardInterrupt when it ends. Outside the main thread, which
+    alone hears of signals, and in a process that ignores Ctrl-C, as a shell's background jobs do, nothing changes.
     """
     if threading.current_thread() is not threading.main_thread() or signal.getsignal(signal.SIGINT) is signal.SIG_IGN:
         yield lambda: False

@@ -28,7 +28,9 @@ class Progress:
 
 
 def share(folder):
-    """Share of a run that is done: 1 where its result is there, else what :class:`Progress` noted last, at most 0.99."""
+    """Share of a run that is done: 1 where its result is there, else what :class:`Progress` noted last, at most
+    0.99.
+    """
     folder = Path(folder)
     if (folder / "result.json").exists():
         return 1.0
@@ -39,14 +41,18 @@ def share(folder):
 
 
 def begin(folder, key, function=None):
-    """Notes what a run is of, before it writes anything else; ``key``: of its input, ``function``: which makes it, see keys.run_key. ``made_by.json`` keeps what the key is made of."""
+    """Notes what a run is of, before it writes anything else; ``key``: of its input, ``function``: which makes it, see
+    keys.run_key. ``made_by.json`` keeps what the key is made of.
+    """
     made = {"input": key, "engines": keys.engines_key(), "code": keys.made_by(function)}
     write_json(Path(folder) / MADE_BY, made)
     write_atomically(Path(folder) / "key", keys.run_key(key, function).encode())
 
 
 def changed(folder, key=None, function=None):
-    """What has changed since a run began in the folder: "input" (where a ``key`` is given), "engines", and files of this package, a list; None where no run has noted it."""
+    """What has changed since a run began in the folder: "input" (where a ``key`` is given), "engines", and files of
+    this package, a list; None where no run has noted it.
+    """
     try:
         made = json.loads((Path(folder) / MADE_BY).read_text())
         then = made["code"]
@@ -66,7 +72,9 @@ def forsake(folder):
 
 
 def foreign(folder, *spared):
-    """The name of a file or folder in a folder that no run has written to; None where a run has, or where it is empty but for what is ``spared``."""
+    """The name of a file or folder in a folder that no run has written to; None where a run has, or where it is empty
+    but for what is ``spared``.
+    """
     folder = Path(folder)
     if not folder.is_dir() or any((folder / name).exists() for name in ("key", "result.json")):
         return None
@@ -82,7 +90,9 @@ def begun(folder, key, function=None):
 
 
 def keep(folder, key, found, function=None):
-    """Writes the result of a run; ``key``: of its input, ``function``: which made it, see keys.run_key. What it is of stands beside it: input, engines and code."""
+    """Writes the result of a run; ``key``: of its input, ``function``: which made it, see keys.run_key. What it is of
+    stands beside it: input, engines and code.
+    """
     write_json(Path(folder) / "result.json", {"key": keys.run_key(key, function), "found": found})
 
 

@@ -1,6 +1,7 @@
 """Calls of this package's functions in YADE processes of their own.
 
-Small scenes gain little from threads, so runs side by side use a machine better. Each process has one thread unless more are asked for.
+Small scenes gain little from threads, so runs side by side use a machine better. Each process has one thread unless
+more are asked for.
 """
 
 from __future__ import annotations
@@ -27,14 +28,19 @@ _running, _halted, _guard = set(), False, threading.Lock()  # processes of this 
 
 
 class RunError(UserError, RuntimeError):
-    """A run that ended without a result. The message is the run's own where it refused (a UserError), else its status and the last line of its output."""
+    """A run that ended without a result. The message is the run's own where it refused (a UserError), else its status
+    and the last line of its output.
+    """
 
 
 def call(function, folder, arguments, threads=1):
-    """Calls ``function(folder, **arguments)`` in a process and returns what it returned, with ``wall_s`` [s] added where it has none.
+    """Calls ``function(folder, **arguments)`` in a process and returns what it returned, with ``wall_s`` [s] added
+    where it has none.
 
-    ``function``: of a module of this package, or its name, as "studies.laboratory.biaxial:run", where the module needs YADE and this process has none; it returns a dictionary that JSON can hold. ``folder`` exists and is kept; the process
-    writes ``log.txt`` and ``found.json`` there. ``arguments``: what JSON can hold; ``threads``: of the process. Raises RunError where it fails.
+    ``function``: of a module of this package, or its name, as "studies.laboratory.biaxial:run", where the module needs
+    YADE and this process has none; it returns a dictionary that JSON can hold. ``folder`` exists and is kept; the
+    process writes ``log.txt`` and ``found.json`` there. ``arguments``: what JSON can hold; ``threads``: of the process.
+    Raises RunError where it fails.
     """
     folder, began = Path(folder), time.monotonic()
     request = folder / "request.json"
@@ -76,7 +82,9 @@ def named(function):
 
 
 def _run(command, **options):
-    """Status of a process, which hears of a Ctrl-C that comes meanwhile: one that comes while it begins, when YADE would forget it, waits until the worker asks for it."""
+    """Status of a process, which hears of a Ctrl-C that comes meanwhile: one that comes while it begins, when YADE
+    would forget it, waits until the worker asks for it.
+    """
     with _guard:
         if _halted:
             raise RunError("stopped before it began")
@@ -98,8 +106,8 @@ def _run(command, **options):
 
 @contextlib.contextmanager
 def pool(threads):
-    """A ThreadPoolExecutor for calls side by side. At Ctrl-C those that have not begun do not, and the others' processes end as they do at Ctrl-C themselves:
-    with a checkpoint where they have one. A second Ctrl-C kills them."""
+    """A ThreadPoolExecutor for calls side by side. At Ctrl-C those that have not begun do not, and the others'
+    processes end as they do at Ctrl-C themselves: with a checkpoint where they have one. A second Ctrl-C kills them."""
     global _halted
     _halted = False
     with ThreadPoolExecutor(max(1, threads)) as made:

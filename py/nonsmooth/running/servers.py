@@ -1,7 +1,8 @@
 """The servers that YADE's main program opens, and how to shut them.
 
-The launcher and the programs of the build folder start YADE without them. Plain ``yade`` opens two, to all interfaces: a Python prompt (ports from
-9000) that anyone who finds its cookie of six letters can use, and an XMLRPC server (ports from 21000) whose ``stop()`` asks for no cookie.
+The launcher and the programs of the build folder start YADE without them. Plain ``yade`` opens two, to all interfaces:
+a Python prompt (ports from 9000) that anyone who finds its cookie of six letters can use, and an XMLRPC server (ports
+from 21000) whose ``stop()`` asks for no cookie.
 """
 
 from __future__ import annotations
@@ -13,7 +14,9 @@ __all__ = ["close"]
 
 
 def close():
-    """Shuts the servers that YADE has opened in this process, and returns their ports. Where there are none it does nothing."""
+    """Shuts the servers that YADE has opened in this process, and returns their ports. Where there are none it does
+    nothing.
+    """
     from yade import remote
 
     ports = []

@@ -1,7 +1,8 @@
-"""Runs side by side: each in a YADE process and a folder of its own, as many at a time as there are threads; what has ended is kept for a resume.
+"""Runs side by side: each in a YADE process and a folder of its own, as many at a time as there are threads; what has
+ended is kept for a resume.
 
-Each process has one thread, so wall times of all runs are on the same footing; those of runs that share a machine's memory with others are a little
-longer than alone.
+Each process has one thread, so wall times of all runs are on the same footing; those of runs that share a machine's
+memory with others are a little longer than alone.
 """
 
 from __future__ import annotations
@@ -26,8 +27,9 @@ LOOK_SECONDS = 1.0  # between two looks at how far the runs are
 
 @dataclass(frozen=True)
 class Run:
-    """One run. ``name``: for messages; ``folder``: of its records; ``function``, ``arguments``: see processes.call, which takes the function's name too; the function may note the share done
-    with kept_runs.Progress. ``key``: of what its result depends on, but for engines and code; ``work``: what it costs beside the others, in any unit.
+    """One run. ``name``: for messages; ``folder``: of its records; ``function``, ``arguments``: see processes.call,
+    which takes the function's name too; the function may note the share done with kept_runs.Progress. ``key``: of what
+    its result depends on, but for engines and code; ``work``: what it costs beside the others, in any unit.
     """
 
     name: str
@@ -39,7 +41,9 @@ class Run:
 
 
 def check(runs, error=processes.RunError, advice=""):
-    """Raises ``error``, a class, with the ``advice`` where Runs share a folder: each would take the other's records for its own."""
+    """Raises ``error``, a class, with the ``advice`` where Runs share a folder: each would take the other's records for
+    its own.
+    """
     twice = [folder for folder, number in Counter(r.folder for r in runs).items() if number > 1]
     if twice:
         raise error(f"{', '.join(sorted(folder.name for folder in twice))}: two runs of one name{advice}")
@@ -55,13 +59,15 @@ def folder_of(out, name, error):
 def run(
     runs, threads, resume=False, error=processes.RunError, advice="", progress=lambda share, ended: None, go_on=False
 ):
-    """Does all Runs, the costly ones first so that threads end together. Returns what their functions returned, in the order of ``runs``, each with
-    ``process_wall_s``: wall time of its process [s].
+    """Does all Runs, the costly ones first so that threads end together. Returns what their functions returned, in the
+    order of ``runs``, each with ``process_wall_s``: wall time of its process [s].
 
-    ``resume``: keep what has ended; ``go_on``: keep also what halted runs of the same input, engines and code have written, since their function goes on from it. All
-    else in the folders is removed; a folder that is not empty and has no run in it is refused. ``progress``: called about once a second with the share done of all work, and how many runs have ended. Raises ``error``, a class, before
-    anything runs where Runs share a folder, and with the first failure (in the order of ``runs``) and the ``advice`` after the others have ended; interrupts.Interrupted
-    after Ctrl-C.
+    ``resume``: keep what has ended; ``go_on``: keep also what halted runs of the same input, engines and code have
+    written, since their function goes on from it. All else in the folders is removed; a folder that is not empty and
+    has no run in it is refused. ``progress``: called about once a second with the share done of all work, and how many
+    runs have ended. Raises ``error``, a class, before anything runs where Runs share a folder, and with the first
+    failure (in the order of ``runs``) and the ``advice`` after the others have ended; interrupts.Interrupted after
+    Ctrl-C.
     """
     runs = list(runs)
     check(runs, error)
@@ -103,7 +109,9 @@ def run(
 
 
 def _clear(folder):
-    """Removes an earlier run; what another process might take for the new one's goes first, so that a kill on the way leaves none of it."""
+    """Removes an earlier run; what another process might take for the new one's goes first, so that a kill on the way
+    leaves none of it.
+    """
     checkpoints.forget(folder)
     try:
         kept_runs.forsake(folder)

@@ -1,4 +1,6 @@
-"""What is asked of the model: a slope, laboratory tests, columns and piles, lessons, the paper beside ours, hard beside soft.
+"""What is asked of the model: a slope, laboratory tests, columns and piles, lessons, the paper beside ours, hard beside
+soft.
 
-They stand in this order, and a study imports only from those before it: slope, laboratory, heaps, lessons; campaigns; paper, comparison.
+They stand in this order, and a study imports only from those before it: slope, laboratory, heaps, lessons; campaigns;
+paper, comparison.
 """

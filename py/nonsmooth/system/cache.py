@@ -1,8 +1,11 @@
-"""The cache: what takes long to make is made once, and kept below ${XDG_CACHE_HOME:-~/.cache}/yade-nonsmooth. Needs no YADE.
+"""The cache: what takes long to make is made once, and kept below ${XDG_CACHE_HOME:-~/.cache}/yade-nonsmooth. Needs no
+YADE.
 
-An entry is a file of arrays with a format and a checksum. Its name has the key of all that it was made of (:mod:`.keys`), so it is never wrong, only old. It is written beside and renamed: two
-processes that miss the same entry both make it, the last file stays, and no reader meets half of one. What is damaged is made anew, with a note. The time of change of an entry is that of its last
-use. Other things that are kept as folders, such as saved scenes, lie in a :func:`folder` too and are :func:`used`, so that they age in the same way.
+An entry is a file of arrays with a format and a checksum. Its name has the key of all that it was made of
+(:mod:`.keys`), so it is never wrong, only old. It is written beside and renamed: two processes that miss the same entry
+both make it, the last file stays, and no reader meets half of one. What is damaged is made anew, with a note. The time
+of change of an entry is that of its last use. Other things that are kept as folders, such as saved scenes, lie in a
+:func:`folder` too and are :func:`used`, so that they age in the same way.
 """
 
 from __future__ import annotations
@@ -37,7 +40,8 @@ class CacheError(UserError, ValueError):
 class Cache:
     """Entries of one kind, in a :func:`folder` of the cache.
 
-    ``write``: gives arrays and numbers, a dictionary by their names, for a value (by default its attributes); ``read``: makes the value of them, as arguments by name.
+    ``write``: gives arrays and numbers, a dictionary by their names, for a value (by default its attributes); ``read``:
+    makes the value of them, as arguments by name.
     """
 
     name: str
@@ -45,11 +49,15 @@ class Cache:
     write: Callable = vars
 
     def path(self, key, tail="") -> Path:
-        """The file of an entry: of its key (hexadecimal digits) and a ``tail``, which may say more. Files of another format have another name."""
+        """The file of an entry: of its key (hexadecimal digits) and a ``tail``, which may say more. Files of another
+        format have another name.
+        """
         return folder(self.name) / f"{key[:32]}{tail}-v{FORMAT}.npz"
 
     def of(self, path, make):
-        """The value of an entry; what ``make`` returns, which is kept, where there is none. Raises WriteError, and what ``make`` raises."""
+        """The value of an entry; what ``make`` returns, which is kept, where there is none. Raises WriteError, and what
+        ``make`` raises.
+        """
         found = self.find(path)
         if found is None:
             found = make()
@@ -57,7 +65,9 @@ class Cache:
         return found
 
     def find(self, path):
-        """The value of an entry, which counts as used now; None where there is none, and, with a UserNote, where it is damaged, cannot be read or has another format."""
+        """The value of an entry, which counts as used now; None where there is none, and, with a UserNote, where it is
+        damaged, cannot be read or has another format.
+        """
         try:
             with open(path, "rb") as file, np.load(file) as arrays:  # NumPy alone would leave a damaged one open
                 stored = dict(arrays)
@@ -104,7 +114,8 @@ def used(path) -> None:
 
 
 def old(days, *names) -> list[Path]:
-    """Sorted paths of what nobody has used for more than so many days, in the folders ``names``, or in all; what killed processes left half-written too.
+    """Sorted paths of what nobody has used for more than so many days, in the folders ``names``, or in all; what killed
+    processes left half-written too.
 
     Raises CacheError where ``days`` is no number from 0, and for an unknown name.
     """
@@ -121,7 +132,9 @@ def _last_use(path):
 
 
 def clear(days, *names) -> list[Path]:
-    """Removes what is :func:`old`, and returns the paths of what has gone. With a small ``days`` nothing else should be running: it may be writing there."""
+    """Removes what is :func:`old`, and returns the paths of what has gone. With a small ``days`` nothing else should be
+    running: it may be writing there.
+    """
     found = old(days, *names)
     for path in found:
         with contextlib.suppress(OSError):

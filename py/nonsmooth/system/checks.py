@@ -1,4 +1,6 @@
-"""What functions ask of the arguments that they are given: each check raises the caller's own error, in one sentence with the argument's name, its value and what would do. Needs no YADE."""
+"""What functions ask of the arguments that they are given: each check raises the caller's own error, in one sentence
+with the argument's name, its value and what would do. Needs no YADE.
+"""
 
 from __future__ import annotations
 
@@ -21,7 +23,9 @@ def shown(value):
 
 
 def number(name, value, error, remedy, above=-math.inf, least=-math.inf, most=math.inf, below=math.inf):
-    """The ``value`` as a float, finite, ``above`` and ``below`` these, from ``least`` to ``most``; raises ``error`` with "NAME VALUE: REMEDY" where it is not. A boolean is no number."""
+    """The ``value`` as a float, finite, ``above`` and ``below`` these, from ``least`` to ``most``; raises ``error``
+    with "NAME VALUE: REMEDY" where it is not. A boolean is no number.
+    """
     real = isinstance(value, numbers.Real) and not isinstance(value, bool)
     found = float(value) if real else math.nan  # which no bound lets through, as infinity
     if not (above < found < below and least <= found <= most):
@@ -52,7 +56,9 @@ def mapping(name, value, error, remedy):
 
 
 def numbers_of(name, value, error, remedy, least=1, most=math.inf):
-    """The ``value``, a list, tuple, array or YADE vector, as a tuple of finite floats, from ``least`` to ``most`` of them; raises ``error`` for anything else."""
+    """The ``value``, a list, tuple, array or YADE vector, as a tuple of finite floats, from ``least`` to ``most`` of
+    them; raises ``error`` for anything else.
+    """
     try:
         found = () if isinstance(value, (str, bytes)) else tuple(float(v) for v in value)
     except (TypeError, ValueError):
@@ -83,7 +89,9 @@ def real(remedy):
 
 
 def takes(error, **rules):
-    """A decorator: the function raises ``error``, and does nothing else, where an argument that has been given breaks its rule: {argument: (function of a value, remedy)}."""
+    """A decorator: the function raises ``error``, and does nothing else, where an argument that has been given breaks
+    its rule: {argument: (function of a value, remedy)}.
+    """
 
     def decorate(function):
         signature = inspect.signature(function)

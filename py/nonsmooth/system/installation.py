@@ -1,7 +1,8 @@
-"""Where the YADE that runs scenes is, and its engines: from within it, or from a plain Python (a notebook, a cluster's login node). Needs no YADE.
+"""Where the YADE that runs scenes is, and its engines: from within it, or from a plain Python (a notebook, a cluster's
+login node). Needs no YADE.
 
-Within YADE it is the one that runs. A plain Python finds that of the checkout which this package lies in, built below ``build`` or ``$NONSMOOTH_BUILD``; or
-the one that the plugin is installed in.
+Within YADE it is the one that runs. A plain Python finds that of the checkout which this package lies in, built below
+``build`` or ``$NONSMOOTH_BUILD``; or the one that the plugin is installed in.
 """
 
 from __future__ import annotations
@@ -31,7 +32,9 @@ def _within():
 
 
 def command(threads) -> list:
-    """The words that run a script in YADE, without graphics; the script and its arguments follow. Raises InstallationError."""
+    """The words that run a script in YADE, without graphics; the script and its arguments follow. Raises
+    InstallationError.
+    """
     here, prefix = _within(), os.environ.get("YADE_PREFIX")  # set where the plugin is used from its build folder
     if here:
         return [

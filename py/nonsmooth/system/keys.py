@@ -1,4 +1,6 @@
-"""Keys: what a result that is kept was made of, so that none is taken for that of other input, engines or code. Needs no YADE."""
+"""Keys: what a result that is kept was made of, so that none is taken for that of other input, engines or code. Needs
+no YADE.
+"""
 
 from __future__ import annotations
 
@@ -29,13 +31,17 @@ def digest(path) -> str:
 
 
 def engines_key() -> str:
-    """Key of the engines as they were built: what they have computed and a cache keeps is another build's, perhaps by its last bits, once they change."""
+    """Key of the engines as they were built: what they have computed and a cache keeps is another build's, perhaps by
+    its last bits, once they change.
+    """
     return digest(installation.engines())
 
 
 @functools.cache
 def statements(path) -> str:
-    """SHA-256 of what a Python file does: of its syntax tree without docstrings, so that neither comments nor layout count. A Path is read once in a process."""
+    """SHA-256 of what a Python file does: of its syntax tree without docstrings, so that neither comments nor layout
+    count. A Path is read once in a process.
+    """
     tree = _tree(path)
     for node in ast.walk(tree):
         if (
@@ -51,8 +57,9 @@ def _tree(path):
 
 
 def module_of(function) -> str | None:
-    """The module that a function is of, named from the top of this package ("laboratory.pressing"); None for one outside of it. A function may be given by its name, as processes.call takes
-    it ("studies.laboratory.pressing:run"), and a module by its own, with or without the package's (``__name__``)."""
+    """The module that a function is of, named from the top of this package ("laboratory.pressing"); None for one
+    outside of it. A function may be given by its name, as processes.call takes it ("studies.laboratory.pressing:run"),
+    and a module by its own, with or without the package's (``__name__``)."""
     name = function.partition(":")[0] if isinstance(function, str) else getattr(function, "__module__", "")
     name = re.sub(r"^(yade\.)?nonsmooth\.", "", name)
     return name if name and _file(name.split(".")) else None
@@ -78,8 +85,9 @@ def _all():
 
 @functools.cache
 def _asks_for(path) -> frozenset:
-    """Files of this package that a module of it reads or imports, wherever in it: also by the name of a function that a process calls ("studies.laboratory.biaxial:run"), and of those modules of its own
-    package that it imports when they are asked for."""
+    """Files of this package that a module of it reads or imports, wherever in it: also by the name of a function that a
+    process calls ("studies.laboratory.biaxial:run"), and of those modules of its own package that it imports when they
+    are asked for."""
     tree = _tree(path)
     if any(isinstance(node, ast.Call) and getattr(node.func, "id", None) == "exec" for node in ast.walk(tree)):
         return frozenset(_all())  # it runs a script, which may import anything
@@ -110,7 +118,9 @@ def _asks_for(path) -> frozenset:
 
 @functools.cache
 def _closure(name):
-    """The file of a module of this package, and those of all that it imports or reads, directly or not; all files for None."""
+    """The file of a module of this package, and those of all that it imports or reads, directly or not; all files for
+    None.
+    """
     if name is None:
         return _all()
     files, new = set(), {_file(name.split("."))}
@@ -121,8 +131,9 @@ def _closure(name):
 
 
 def made_by(function=None) -> dict:
-    """What decides, besides input and engines, what a ``function`` or a module of this package makes (see :func:`module_of`): {file: hash} of the statements of its module and of all modules that
-    this imports, directly or not, and of the data that they read. Of one outside of this package, or None: of all that is in it.
+    """What decides, besides input and engines, what a ``function`` or a module of this package makes (see
+    :func:`module_of`): {file: hash} of the statements of its module and of all modules that this imports, directly or
+    not, and of the data that they read. Of one outside of this package, or None: of all that is in it.
     """
     named = sorted(path.relative_to(HOME).as_posix() for path in _closure(module_of(function)))
     return {file: hash_of(file) for file in named}
@@ -142,5 +153,7 @@ def making_key(function) -> str:
 
 
 def run_key(key, function=None) -> str:
-    """Key of a run whose input has the ``key``, by a ``function`` (see :func:`module_of`): of the input, the engines and the code; without a function, of all code of this package."""
+    """Key of a run whose input has the ``key``, by a ``function`` (see :func:`module_of`): of the input, the engines
+    and the code; without a function, of all code of this package.
+    """
     return key_of([key, engines_key(), made_by(function)])

@@ -22,10 +22,11 @@ class FolderError(UserError):
 
 
 def claim(folder, command, resume=False):
-    """Makes a folder for the results of ``command`` (a name) and holds it until this process ends; what killed processes have left half-written in it goes.
+    """Makes a folder for the results of ``command`` (a name) and holds it until this process ends; what killed
+    processes have left half-written in it goes.
 
-    Raises FolderError where nothing can be written there, where another process holds the folder, and for a ``resume`` where other commands alone have
-    written; WriteError where what is half-written cannot be removed.
+    Raises FolderError where nothing can be written there, where another process holds the folder, and for a ``resume``
+    where other commands alone have written; WriteError where what is half-written cannot be removed.
     """
     folder = Path(folder)
     try:
@@ -68,7 +69,9 @@ def claim(folder, command, resume=False):
 
 @contextlib.contextmanager
 def claimed(folder, command, resume=False):
-    """The same for a block, in a process that lives on, as a notebook's: others may claim the folder once the block has ended. Raises what :func:`claim` raises."""
+    """The same for a block, in a process that lives on, as a notebook's: others may claim the folder once the block has
+    ended. Raises what :func:`claim` raises.
+    """
     place = Path(folder).resolve()
     before = place in _held
     claim(folder, command, resume)

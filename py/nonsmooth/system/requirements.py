@@ -1,7 +1,8 @@
-"""What a Python must have for this package: the list in requirements.txt, and one message where something of it is missing. Needs no YADE.
+"""What a Python must have for this package: the list in requirements.txt, and one message where something of it is
+missing. Needs no YADE.
 
-The message names the package for Debian and for pip. It comes in place of Python's own when a module of this package imports what is not installed, in
-a notebook without a traceback.
+The message names the package for Debian and for pip. It comes in place of Python's own when a module of this package
+imports what is not installed, in a notebook without a traceback.
 """
 
 from __future__ import annotations
@@ -21,12 +22,16 @@ FILE = Path(__file__).resolve().with_name("requirements.txt")
 
 
 class MissingPackage(UserError, ModuleNotFoundError):
-    """A package that this one needs is not installed in the Python that runs; the message says which, and what installs it."""
+    """A package that this one needs is not installed in the Python that runs; the message says which, and what installs
+    it.
+    """
 
 
 @dataclass(frozen=True)
 class Requirement:
-    """A line of the list: names for ``pip`` and in ``debian``, the ``module`` of it that this package imports, None for a program, and what ``use`` is made of it."""
+    """A line of the list: names for ``pip`` and in ``debian``, the ``module`` of it that this package imports, None for
+    a program, and what ``use`` is made of it.
+    """
 
     pip: str
     debian: str
@@ -48,14 +53,17 @@ def listed() -> tuple[Requirement, ...]:
 
 
 def remedy(*modules) -> str:
-    """The commands that install what brings these modules, in words. Raises KeyError for a module that is not in the list."""
+    """The commands that install what brings these modules, in words. Raises KeyError for a module that is not in the
+    list.
+    """
     known = {one.module: one for one in listed()}
     wanted = [known[name] for name in modules]
     return f"apt install {' '.join(one.debian for one in wanted)}, or pip install {' '.join(one.pip for one in wanted)}"
 
 
 def watch():
-    """Has imports by modules of this package that fail say what to install: raises MissingPackage there, in place of ModuleNotFoundError.
+    """Has imports by modules of this package that fail say what to install: raises MissingPackage there, in place of
+    ModuleNotFoundError.
 
     Imports by others stay as they are, those of this package's own requirements too.
     """

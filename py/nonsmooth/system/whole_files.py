@@ -37,7 +37,8 @@ class WriteError(UserError, OSError):
 
 @contextlib.contextmanager
 def beside(path):
-    """A path in the same folder and with the same suffix to write to: it takes the place of ``path`` when the block ends, and goes if the block raises.
+    """A path in the same folder and with the same suffix to write to: it takes the place of ``path`` when the block
+    ends, and goes if the block raises.
 
     The folder is made if need be. Raises OSError, and what the block raises.
     """
@@ -54,7 +55,9 @@ def beside(path):
 
 
 def whole(folder, pattern):
-    """Sorted paths of the files in ``folder`` that match a pattern, without those that are being written, or were when their process was killed."""
+    """Sorted paths of the files in ``folder`` that match a pattern, without those that are being written, or were when
+    their process was killed.
+    """
     return sorted(path for path in Path(folder).glob(pattern) if not path.name.startswith(PART))
 
 
@@ -70,7 +73,9 @@ def remove(paths, what):
 
 
 def remove_parts(*folders):
-    """Removes what killed processes left half-written in the folders; other processes must not be writing there. Raises WriteError."""
+    """Removes what killed processes left half-written in the folders; other processes must not be writing there. Raises
+    WriteError.
+    """
     for folder in folders:
         for path in Path(folder).glob(f"{PART}*"):
             try:
@@ -82,7 +87,9 @@ def remove_parts(*folders):
 
 
 def remove_parts_below(folder, held):
-    """The same in the folder and all below it, but for hidden ones, and those with a file of the name ``held``: another process may be writing there."""
+    """The same in the folder and all below it, but for hidden ones, and those with a file of the name ``held``: another
+    process may be writing there.
+    """
     for path, below, _ in os.walk(folder):
         below[:] = [name for name in below if not name.startswith(".") and not Path(path, name, held).exists()]
         remove_parts(path)
@@ -94,7 +101,9 @@ def list_of(folder):
 
 
 def empty(folder, *spared):
-    """Removes all that is in a folder, but for what has one of the names ``spared``; a folder that is not there is empty. Raises OSError."""
+    """Removes all that is in a folder, but for what has one of the names ``spared``; a folder that is not there is
+    empty. Raises OSError.
+    """
     for path in list_of(folder):
         if path.name not in spared:
             shutil.rmtree(path) if path.is_dir() and not path.is_symlink() else path.unlink()
@@ -112,7 +121,9 @@ def sync_folder(folder):
 
 
 def write_atomically(path, content) -> None:
-    """Write `content` (bytes, or any buffer of them) beside `path`, then rename, so that a reader never meets half a file. Raises WriteError."""
+    """Write `content` (bytes, or any buffer of them) beside `path`, then rename, so that a reader never meets half a
+    file. Raises WriteError.
+    """
     try:
         with beside(path) as part, part.open("wb") as file:
             file.write(content)
@@ -132,5 +143,7 @@ def write_arrays(path, /, compressed=False, **arrays) -> None:
 
 
 def write_json(path, plain, **how) -> None:
-    """Writes plain data as JSON, one value a line, see write_atomically; ``how``: of json.dumps. Raises WriteError, and TypeError where JSON cannot hold the data."""
+    """Writes plain data as JSON, one value a line, see write_atomically; ``how``: of json.dumps. Raises WriteError, and
+    TypeError where JSON cannot hold the data.
+    """
     write_atomically(path, (json.dumps(plain, indent=1, **how) + "\n").encode())

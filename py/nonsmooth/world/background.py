@@ -1,9 +1,11 @@
 """``O.run()``, ``O.wait()`` and the end of the process, such that no error of a run in the background is lost.
 
-YADE makes the steps of ``O.run()`` in a thread of its own. ``O.wait()`` raises the error that ends the thread, an engine's refusal or any other, but only if it waits already when the error
-comes. ``O.run(n, wait=True)`` begins to wait after it has begun to run, and may be late. With the plugin in YADE
+YADE makes the steps of ``O.run()`` in a thread of its own. ``O.wait()`` raises the error that ends the thread, an
+engine's refusal or any other, but only if it waits already when the error comes. ``O.run(n, wait=True)`` begins to wait
+after it has begun to run, and may be late. With the plugin in YADE
 
-* ``O.wait()``, and with it ``O.run(n, wait=True)``, raises what has ended the run (RuntimeError), whenever it came, and once;
+* ``O.wait()``, and with it ``O.run(n, wait=True)``, raises what has ended the run (RuntimeError), whenever it came, and
+  once;
 * a process tells at its end of an error that the script has not heard of, and ends with status 1 instead of 0.
 
 A prompt ends as it would: its user has the error in the log.
@@ -42,8 +44,9 @@ _unheard: list[str] = []  # messages of runs that are past
 
 
 def watch(take, is_over):
-    """Replaces methods of YADE's ``Omega``; the plugin's library calls it, once. ``take()`` gives the message of the error that ended the last run, and has YADE
-    forget it, or None; ``is_over()`` whether no step of a run is under way."""
+    """Replaces methods of YADE's ``Omega``; the plugin's library calls it, once. ``take()`` gives the message of the
+    error that ended the last run, and has YADE forget it, or None; ``is_over()`` whether no step of a run is under
+    way."""
     global _take, _is_over, _process
     _take, _is_over, _process = take, is_over, os.getpid()
     Omega.run, Omega.wait, Omega.exitNoBacktrace = _run_and_raise, _wait_and_raise, _leave_and_tell
@@ -53,7 +56,9 @@ def watch(take, is_over):
 
 
 def ended(status=0):
-    """The status of a process that is to end with ``status``: 1 instead of 0 where nobody has heard of an error, which stderr is told then."""
+    """The status of a process that is to end with ``status``: 1 instead of 0 where nobody has heard of an error, which
+    stderr is told then.
+    """
     if os.getpid() != _process:  # a fork: its parent tells
         return status
     _keep(stop=status == 0)

@@ -72,7 +72,8 @@ _strengths = checks.takes(
 def material(m, kind=NscdMat, **others):
     """A material with the strengths of the section.Material ``m``, not yet in the scene.
 
-    ``kind``: NscdMat or a class derived from it; ``others``: further attributes, or other values. A wall may have no density; it then gets a rock's.
+    ``kind``: NscdMat or a class derived from it; ``others``: further attributes, or other values. A wall may have no
+    density; it then gets a rock's.
     """
     values = dict(
         density=m.density or 2500.0,
@@ -95,7 +96,8 @@ def material(m, kind=NscdMat, **others):
 def wall_material(m, **others):
     """The material of a wall, whose strengths alone rule contacts with it; not yet in the scene.
 
-    ``m``: a section.Material; with ``m.slip_weakening`` a SlipWeakeningMat, and bonds with disks of any layer if ``m.bonded``.
+    ``m``: a section.Material; with ``m.slip_weakening`` a SlipWeakeningMat, and bonds with disks of any layer if
+    ``m.bonded``.
     """
     options = dict(wall=True, bondsToAll=m.bonded, layer=-1)
     weak = m.slip_weakening
@@ -113,10 +115,12 @@ def wall_material(m, **others):
 def disk(centre, radius, material, fixed=False, color=None):
     """A disk as a YADE Sphere body in the plane z = 0, not yet in the scene.
 
-    ``centre``: (x, y) [m]; ``radius`` [m]; ``material``: an NscdMat, whose density [kg/m³] gives the mass ρ π r² and the
-    inertia m r²/2 per metre of thickness; its friction angle is 0.5 rad unless it says otherwise. Where ``shape.radius`` is changed later, mass and inertia follow. ``fixed``: block all degrees of freedom.
+    ``centre``: (x, y) [m]; ``radius`` [m]; ``material``: an NscdMat, whose density [kg/m³] gives the mass ρ π r² and
+    the inertia m r²/2 per metre of thickness; its friction angle is 0.5 rad unless it says otherwise. Where
+    ``shape.radius`` is changed later, mass and inertia follow. ``fixed``: block all degrees of freedom.
 
-    Raises SceneError, a ValueError, for a radius that is not positive and finite, for a centre without two finite numbers, for what is no material, and for a centre out of the plane, as a script with z up has it.
+    Raises SceneError, a ValueError, for a radius that is not positive and finite, for a centre without two finite
+    numbers, for what is no material, and for a centre out of the plane, as a script with z up has it.
     """
     checks.numbers_of("disk, centre", centre, SceneError, _PLACE, 2, 3)
     checks.number(f"disk at {tuple(centre)}: radius", radius, SceneError, "give a positive radius [m]", above=0)
@@ -141,14 +145,18 @@ def _as_disk(body, blocked):
 
 
 def disks(spheres, material=None, fixed=False, color=None):
-    """Disks in the plane z = 0, as :func:`disk` makes one, of what YADE's makers give; a list of bodies, not yet in the scene.
+    """Disks in the plane z = 0, as :func:`disk` makes one, of what YADE's makers give; a list of bodies, not yet in the
+    scene.
 
-    ``spheres``: a SpherePack, filled by makeCloud or from a file; spheres' bodies, as pack.regularHexa, pack.regularOrtho and ymport.text give them; or rows (x, y, radius) or
-    (x, y, z, radius) [m], a list or an array. Or ids, as SpherePack.toSimulation gives them, of spheres that are in the scene: these become disks where they are, and are not to be appended again.
-    ``material``: an NscdMat; None: bodies keep theirs. ``fixed``: block all degrees of freedom; what a body has blocked stays blocked. ``color``: of all; None: bodies keep theirs, others get random ones.
+    ``spheres``: a SpherePack, filled by makeCloud or from a file; spheres' bodies, as pack.regularHexa,
+    pack.regularOrtho and ymport.text give them; or rows (x, y, radius) or (x, y, z, radius) [m], a list or an array. Or
+    ids, as SpherePack.toSimulation gives them, of spheres that are in the scene: these become disks where they are, and
+    are not to be appended again. ``material``: an NscdMat; None: bodies keep theirs. ``fixed``: block all degrees of
+    freedom; what a body has blocked stays blocked. ``color``: of all; None: bodies keep theirs, others get random ones.
 
-    A cloud is flat where its corners have one z: ``makeCloud((0, 0, 0), (2, 1, 0), rMean=0.05)``. Raises ValueError for spheres that do not lie in one plane z = const, for clumps, for a radius that is
-    not positive and where a material is missing; TypeError for what holds no spheres.
+    A cloud is flat where its corners have one z: ``makeCloud((0, 0, 0), (2, 1, 0), rMean=0.05)``. Raises ValueError for
+    spheres that do not lie in one plane z = const, for clumps, for a radius that is not positive and where a material
+    is missing; TypeError for what holds no spheres.
     """
     bodies = _spheres(spheres, material, color)
     bad = [k for k, b in enumerate(bodies) if not (b.shape.radius > 0 and all(map(math.isfinite, b.state.pos)))]
@@ -220,11 +228,13 @@ def _check_length(name, value):
 def segments(vertices, material, piece=None, sense=0, closed=False, backwards=False):
     """Bodies of a wall along a polyline, fixed and not yet in the scene.
 
-    ``vertices``: (n, 2) [m]. ``piece``: greatest length of a segment [m]; long oblique segments have large bounding boxes, so cut
-    walls into pieces of some ten disk diameters. ``sense``: side that acts, see Segment.sense (+1: left of the direction of
-    travel). Joints, of pieces and of corners, count as one wall: no doubled contact, no bump; so do those with walls of other calls, wherever ends meet (see Segment). ``backwards``: the list begins at the last vertex, and a
-    corner belongs to the segment behind it, so that a mirrored wall has the mirrored bodies in the same order; not for a closed one. Raises ValueError for fewer than two
-    vertices, one that is not finite or coincides with its neighbour, and for a ``piece`` or a ``sense`` that makes no sense.
+    ``vertices``: (n, 2) [m]. ``piece``: greatest length of a segment [m]; long oblique segments have large bounding
+    boxes, so cut walls into pieces of some ten disk diameters. ``sense``: side that acts, see Segment.sense (+1: left
+    of the direction of travel). Joints, of pieces and of corners, count as one wall: no doubled contact, no bump; so do
+    those with walls of other calls, wherever ends meet (see Segment). ``backwards``: the list begins at the last
+    vertex, and a corner belongs to the segment behind it, so that a mirrored wall has the mirrored bodies in the same
+    order; not for a closed one. Raises ValueError for fewer than two vertices, one that is not finite or coincides with
+    its neighbour, and for a ``piece`` or a ``sense`` that makes no sense.
     """
     _check_length("piece", piece)
     if not isinstance(sense, (int, np.integer)) or sense not in (-1, 0, 1):
@@ -270,10 +280,12 @@ def segments(vertices, material, piece=None, sense=0, closed=False, backwards=Fa
 def arc(centre, radius, start, end, material, inside=True, piece=None):
     """Bodies of a wall along a circle, fixed and not yet in the scene: a bowl, a drum, a roller.
 
-    ``centre``: (x, y) [m]; ``radius`` [m]; ``start``, ``end``: angles [rad] from the x axis, counter-clockwise from the one to the other; 2 π apart or more: the whole circle.
-    ``inside``: the side that acts; False: the outside, None: both. ``piece``: greatest length of a piece [m], of some ten disk diameters where the arc is large beside many disks;
-    None: one body. Each body's position is the circle's centre: set its angVel, or RotationEngine, and the wall turns in its place. Ends that meet segments or other arcs are joints, see
-    Segment. Raises ValueError for a radius that is not positive, for an end that is not beyond the start, and for another ``inside``.
+    ``centre``: (x, y) [m]; ``radius`` [m]; ``start``, ``end``: angles [rad] from the x axis, counter-clockwise from the
+    one to the other; 2 π apart or more: the whole circle. ``inside``: the side that acts; False: the outside, None:
+    both. ``piece``: greatest length of a piece [m], of some ten disk diameters where the arc is large beside many
+    disks; None: one body. Each body's position is the circle's centre: set its angVel, or RotationEngine, and the wall
+    turns in its place. Ends that meet segments or other arcs are joints, see Segment. Raises ValueError for a radius
+    that is not positive, for an end that is not beyond the start, and for another ``inside``.
     """
     checks.numbers_of("arc, centre", centre, SceneError, _PLACE, 2, 3)
     checks.number("radius =", radius, SceneError, "give a positive length [m]", above=0)
@@ -330,8 +342,8 @@ def _material(material):
     SceneError, **{name: checks.has("shape", "give a body, as segments(...) makes them") for name in ("one", "other")}
 )
 def join(one, other, along, backwards=False):
-    """Makes two segments that meet count as one wall; ``one`` owns their corner. ``along``: the direction of ``other`` in the frame of ``one``; ``backwards``: see
-    :func:`segments`."""
+    """Makes two segments that meet count as one wall; ``one`` owns their corner. ``along``: the direction of ``other``
+    in the frame of ``one``; ``backwards``: see :func:`segments`."""
     if backwards:
         one.shape.previousDirection, other.shape.hasNext = along, True
     else:
@@ -351,9 +363,12 @@ def engines(
 ):
     """The list O.engines of a Contact Dynamics simulation.
 
-    ``gravity`` [m/s²]; ``reach``: gap up to which contacts are known beforehand, in units of ℓ; ``far``: the same for disks that are fast
-    enough to come so near in two steps, where that is more; ``verlet``: the collider's margin [m], negative: in smallest radii, which fits any size of disks; ``before``:
-    engines that add forces, e.g. PorePressureEngine; ``after``: engines after the integrator; ``adhesion_range``: gap up to which the residual tensile strength acts, in units of ℓ; ``options``: attributes of ContactDynamicsEngine. Raises AttributeError for one that it has not.
+    ``gravity`` [m/s²]; ``reach``: gap up to which contacts are known beforehand, in units of ℓ; ``far``: the same for
+    disks that are fast enough to come so near in two steps, where that is more; ``verlet``: the collider's margin [m],
+    negative: in smallest radii, which fits any size of disks; ``before``: engines that add forces, e.g.
+    PorePressureEngine; ``after``: engines after the integrator; ``adhesion_range``: gap up to which the residual
+    tensile strength acts, in units of ℓ; ``options``: attributes of ContactDynamicsEngine. Raises AttributeError for
+    one that it has not.
     """
     checks.numbers_of("gravity", gravity, SceneError, "give (x, y, z) [m/s²], as (0, -9.81, 0)", 3, 3)
     checks.number("reach", reach, SceneError, "give a gap in mean diameters, 0 or more", least=0)
@@ -388,14 +403,19 @@ def engines(
 def plate(
     ends, material, force=0.0, stress=0.0, mass=None, direction=None, between=(), damping=0.0, weightless=True, label=""
 ):
-    """A plate under a load, as a servo has it in other scripts: adds its body to O.bodies and the engine that loads it to O.engines; returns the engine, whose ``id`` is the body's.
+    """A plate under a load, as a servo has it in other scripts: adds its body to O.bodies and the engine that loads it
+    to O.engines; returns the engine, whose ``id`` is the body's.
 
-    ``ends``: two points [m]; the plate acts on its left, as a segment with ``sense=1``, and is pushed there: from right to left for a lid. It moves along one direction, and does not turn.
-    ``force`` [N] or ``stress`` [Pa], both per metre of thickness and free to change later (``engine.stress = 2e5``); the stress acts on the present width. ``mass`` [kg]; None: ρ L²/10, a plate a tenth as thick as long.
-    ``direction``: (x, y) of the way on which it is free and pushed; None: its normal. ``between``: ids of two walls at its sides, whose distance along the plate is its width; none: its own length is.
-    ``damping``: [N s/m]; ``weightless``: the load is all that presses, and not the plate's weight as well; ``label``: of the engine. See PlateLoadEngine.
+    ``ends``: two points [m]; the plate acts on its left, as a segment with ``sense=1``, and is pushed there: from right
+    to left for a lid. It moves along one direction, and does not turn. ``force`` [N] or ``stress`` [Pa], both per metre
+    of thickness and free to change later (``engine.stress = 2e5``); the stress acts on the present width. ``mass``
+    [kg]; None: ρ L²/10, a plate a tenth as thick as long. ``direction``: (x, y) of the way on which it is free and
+    pushed; None: its normal. ``between``: ids of two walls at its sides, whose distance along the plate is its width;
+    none: its own length is. ``damping``: [N s/m]; ``weightless``: the load is all that presses, and not the plate's
+    weight as well; ``label``: of the engine. See PlateLoadEngine.
 
-    Raises LookupError where O.engines has no integrator yet: set O.engines first; ValueError for a mass that is not positive, a direction without length and one that lies along the plate while a stress is given.
+    Raises LookupError where O.engines has no integrator yet: set O.engines first; ValueError for a mass that is not
+    positive, a direction without length and one that lies along the plate while a stress is given.
     """
     for name, value in (("force =", force), ("stress =", stress), ("damping =", damping)):
         checks.number(name, value, SceneError, "give a finite number")

@@ -1,6 +1,7 @@
 """Any scene as it stands, as arrays, whoever made it. Reads YADE's objects by their attributes, and imports no YADE.
 
-Disks are :class:`Sphere`; walls are Segment, Arc, Wall (along an axis), Box and Facet, seen along z. Contacts are hard or soft; a force is that of the last step.
+Disks are :class:`Sphere`; walls are Segment, Arc, Wall (along an axis), Box and Facet, seen along z. Contacts are hard
+or soft; a force is that of the last step.
 """
 
 from __future__ import annotations
@@ -20,9 +21,11 @@ UNSET = (1.0, 1.0, 1.0)  # of a Sphere that nobody gave a colour
 
 @dataclass(frozen=True, eq=False)
 class Scene:
-    """What is in a scene. Disks: ``x``, ``y``, ``r`` [m], ``material`` (order in which materials come), ``fixed``: arrays (n,). ``walls``: list of arrays (2, 2), lines from point to
-    point; ``axes``: list of (0 or 1, place [m]), lines along y or x. Contacts: disks ``ci``, ``cj`` (negative: a wall), points ``cx``, ``cy`` [m], normal force ``cn`` [N],
-    compression positive, ``bonded``: arrays (c,). ``colour``: (n, 3), the bodies' own as shares of red, green and blue; None where nobody has chosen them, see :func:`read`.
+    """What is in a scene. Disks: ``x``, ``y``, ``r`` [m], ``material`` (order in which materials come), ``fixed``:
+    arrays (n,). ``walls``: list of arrays (2, 2), lines from point to point; ``axes``: list of (0 or 1, place [m]),
+    lines along y or x. Contacts: disks ``ci``, ``cj`` (negative: a wall), points ``cx``, ``cy`` [m], normal force
+    ``cn`` [N], compression positive, ``bonded``: arrays (c,). ``colour``: (n, 3), the bodies' own as shares of red,
+    green and blue; None where nobody has chosen them, see :func:`read`.
     """
 
     x: np.ndarray
@@ -49,7 +52,8 @@ class Scene:
 def read(O) -> Scene:
     """The scene in a YADE ``O``; a Scene as it is. Raises RecordsError where there is no disk in it.
 
-    YADE gives each body a random colour where a script gives none. So colours count as chosen where disks share them: where there are half as many as disks, or fewer.
+    YADE gives each body a random colour where a script gives none. So colours count as chosen where disks share them:
+    where there are half as many as disks, or fewer.
     """
     if isinstance(O, Scene):
         return O

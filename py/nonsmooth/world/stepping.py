@@ -15,12 +15,13 @@ class StepError(UserError, RuntimeError):
 
 
 def advance(steps=None, until=None, view=True):
-    """Makes ``steps`` steps, none if that is 0 or less, or as many as end before less than half a step is missing to the time ``until`` [s], or no more of
-    either; one if nothing is said. Returns how many. ``view``: what of O.bodies and O.interactions is up to date afterwards, all of it, the states of some bodies
-    (their ids), or nothing (False) until ``ContactDynamicsEngine.view()``. Raises StepError where an engine refuses one.
+    """Makes ``steps`` steps, none if that is 0 or less, or as many as end before less than half a step is missing to
+    the time ``until`` [s], or no more of either; one if nothing is said. Returns how many. ``view``: what of O.bodies
+    and O.interactions is up to date afterwards, all of it, the states of some bodies (their ids), or nothing (False)
+    until ``ContactDynamicsEngine.view()``. Raises StepError where an engine refuses one.
 
-    This is ``ContactDynamicsEngine.advance`` in scenes of any engines. ``O.run(steps, wait=True)`` makes them in a thread of YADE's own, where 0 steps never end and
-    Ctrl-C is not heard before the last.
+    This is ``ContactDynamicsEngine.advance`` in scenes of any engines. ``O.run(steps, wait=True)`` makes them in a
+    thread of YADE's own, where 0 steps never end and Ctrl-C is not heard before the last.
     """
     if steps is None and until is None:
         steps = 1
@@ -31,7 +32,8 @@ def advance(steps=None, until=None, view=True):
 
 
 def until(calm, limit, every=1, make=advance):
-    """Makes ``every`` steps by ``make(every)``, again and again until ``calm()`` is true after them; returns whether it came to that within ``limit`` steps.
+    """Makes ``every`` steps by ``make(every)``, again and again until ``calm()`` is true after them; returns whether it
+    came to that within ``limit`` steps.
 
     Raises what ``make`` raises.
     """

@@ -35,8 +35,8 @@ def _table(raw: bytes, names) -> dict[str, np.ndarray]:
 
 @_ENGINE
 def bodies(engine) -> dict[str, np.ndarray]:
-    """Spheres of the scene, arrays of shape (n,): ``id`` (int), ``x``, ``y``, ``r`` [m], ``angle`` [rad], ``vx``, ``vy``
-    [m/s], ``omega`` [rad/s]. ``engine``: the ContactDynamicsEngine."""
+    """Spheres of the scene, arrays of shape (n,): ``id`` (int), ``x``, ``y``, ``r`` [m], ``angle`` [rad], ``vx``,
+    ``vy`` [m/s], ``omega`` [rad/s]. ``engine``: the ContactDynamicsEngine."""
     table = _table(engine.bodyTable(), _BODY)
     table["id"] = table["id"].astype(int)
     return table
@@ -46,8 +46,9 @@ def bodies(engine) -> dict[str, np.ndarray]:
 def contacts(engine) -> dict[str, np.ndarray]:
     """Real interactions of the scene, arrays of shape (n,), in the order of (lower id, higher id).
 
-    ``id1``, ``id2`` (int); ``normal``, ``tangential`` [N/m], ``torque`` [N] per metre of thickness, compression positive;
-    ``nx``, ``ny`` (from body 1 to body 2); ``gap`` [m]; ``bonded`` (bool); ``broken`` (int, NscdPhys.brokenMode); ``x``, ``y`` [m].
+    ``id1``, ``id2`` (int); ``normal``, ``tangential`` [N/m], ``torque`` [N] per metre of thickness, compression
+    positive; ``nx``, ``ny`` (from body 1 to body 2); ``gap`` [m]; ``bonded`` (bool); ``broken`` (int,
+    NscdPhys.brokenMode); ``x``, ``y`` [m].
     """
     table = _table(engine.contactTable(), _CONTACT)
     for name in ("id1", "id2", "broken"):
@@ -61,9 +62,9 @@ def contacts(engine) -> dict[str, np.ndarray]:
 def loaded_contacts(engine, first_disk, wall_numbers) -> dict[str, np.ndarray]:
     """Contacts that carry a normal force or a bond, as `records.write_snapshot` takes them.
 
-    ``first_disk``: id of disk 0; ``wall_numbers``: {id: number} of bodies that are walls. Arrays of shape (n,): ``ci`` a disk, ``cj`` a disk or -1 - number
-    of a wall (int), ``cn``, ``ct`` normal and tangential force [N/m], ``cbonded`` (bool), ``cx``, ``cy`` [m]. Raises UserError where a body before disk 0 that touches a disk has no
-    number.
+    ``first_disk``: id of disk 0; ``wall_numbers``: {id: number} of bodies that are walls. Arrays of shape (n,): ``ci``
+    a disk, ``cj`` a disk or -1 - number of a wall (int), ``cn``, ``ct`` normal and tangential force [N/m], ``cbonded``
+    (bool), ``cx``, ``cy`` [m]. Raises UserError where a body before disk 0 that touches a disk has no number.
     """
     checks.count("first_disk", first_disk, UserError, "give the id of disk 0, a whole number from 0", least=0)
     c = contacts(engine)
@@ -92,15 +93,17 @@ def loaded_contacts(engine, first_disk, wall_numbers) -> dict[str, np.ndarray]:
 
 
 def bonds(engine) -> dict[str, int]:
-    """Columns of a series: the bonds that there are, and how many have broken in each way. ``engine``: the ContactDynamicsEngine, or what soft contacts have for it."""
+    """Columns of a series: the bonds that there are, and how many have broken in each way. ``engine``: the
+    ContactDynamicsEngine, or what soft contacts have for it.
+    """
     broken = {f"bonds_broken_{mode}": getattr(engine, f"broken{mode.capitalize()}") for mode in BREAK_MODES[1:]}
     return {"bonds_alive": engine.bonds} | broken
 
 
 @_ENGINE
 def breaks(engine) -> dict[str, np.ndarray]:
-    """Bonds that broke so far, in the order of time and ids, arrays of shape (n,): ``step``, ``id1``, ``id2`` (int, lower id first), ``time``
-    [s], ``mode`` (int, index into BREAK_MODES), ``x``, ``y`` [m]."""
+    """Bonds that broke so far, in the order of time and ids, arrays of shape (n,): ``step``, ``id1``, ``id2`` (int,
+    lower id first), ``time`` [s], ``mode`` (int, index into BREAK_MODES), ``x``, ``y`` [m]."""
     table = _table(engine.breakTable(), _BREAK)
     for name in ("step", "id1", "id2", "mode"):
         table[name] = table[name].astype(int)
@@ -109,8 +112,8 @@ def breaks(engine) -> dict[str, np.ndarray]:
 
 @_WATER
 def water(engine, first, count) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
-    """Whether water acts on the bodies ``first`` to ``first + count - 1``, whether they were wet and have been released for good, and whether they were ever wet: three
-    bool arrays of shape (count,).
+    """Whether water acts on the bodies ``first`` to ``first + count - 1``, whether they were wet and have been released
+    for good, and whether they were ever wet: three bool arrays of shape (count,).
 
     ``engine``: the PorePressureEngine; all false for bodies that it has not met yet, and where it is None.
     """
@@ -123,7 +126,9 @@ def water(engine, first, count) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
 
 @_WEAKENING
 def slip(material, first, count) -> np.ndarray:
-    """Distance [m] that each of the bodies ``first`` to ``first + count - 1`` has slipped along the walls, or the interface, of a SlipWeakeningMat: shape (count,)."""
+    """Distance [m] that each of the bodies ``first`` to ``first + count - 1`` has slipped along the walls, or the
+    interface, of a SlipWeakeningMat: shape (count,).
+    """
     found = np.zeros(count)
     slips = np.frombuffer(material.slipTable())[first : first + count]
     found[: len(slips)] = slips

@@ -14,8 +14,9 @@ RIGHT, UP = Vector3(1, 0, 0), Vector3(0, 1, 0)
 
 
 class WallForces:
-    """``walls``: {name: ids of its pieces}, segments or arcs, which do not move; their forces [N/m] are summed up by engines at the end of O.engines, and those that a loaded scene has
-    go on. ``period``: only steps after which O.iter is a multiple of it count."""
+    """``walls``: {name: ids of its pieces}, segments or arcs, which do not move; their forces [N/m] are summed up by
+    engines at the end of O.engines, and those that a loaded scene has go on. ``period``: only steps after which O.iter
+    is a multiple of it count."""
 
     def __init__(self, walls, period=1):
         there = {tuple(e.ids): e for e in O.engines if isinstance(e, WallForceEngine)}
@@ -31,12 +32,16 @@ class WallForces:
             engine.forget()
 
     def take(self):
-        """Means over the time since the last call, and the largest normal force [N/m]: {name: (normal, positive into the wall; shear along its direction; peak)}."""
+        """Means over the time since the last call, and the largest normal force [N/m]: {name: (normal, positive into
+        the wall; shear along its direction; peak)}.
+        """
         return {name: engine.take() for name, engine in self._engines.items()}
 
 
 def _along(ids):
-    """The directions of a wall's pieces, of an arc that of its chord, counter-clockwise; those in one line have the same to the last bit, so that their forces are added before anything else."""
+    """The directions of a wall's pieces, of an arc that of its chord, counter-clockwise; those in one line have the
+    same to the last bit, so that their forces are added before anything else.
+    """
     ways, last = [], None
     for i in ids:
         along = O.bodies[i].state.ori * (UP if isinstance(O.bodies[i].shape, Arc) else RIGHT)

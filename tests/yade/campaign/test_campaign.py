@@ -1,4 +1,6 @@
-"""A plan of runs: what it makes of a section, what it keeps and collects, and that it is the same run here, through Snakemake and as a job of Slurm."""
+"""A plan of runs: what it makes of a section, what it keeps and collects, and that it is the same run here, through
+Snakemake and as a job of Slurm.
+"""
 
 import csv
 import fcntl
@@ -249,7 +251,9 @@ def test_a_result_that_no_run_has_is_drawn_as_none(tmp_path, called, in_process)
 
 
 def test_all_of_a_large_legend_is_in_the_picture():
-    """Twelve lines of two keys with long names, and all kinds: within the figure, clear of the panels, and each line with a look of its own."""
+    """Twelve lines of two keys with long names, and all kinds: within the figure, clear of the panels, and each line
+    with a look of its own.
+    """
     kinds = ("failed by water", "stood", "slid", "failed dry", "moved dry", "not at rest", "not over")
     key = "materials.weathered rock of the upper layer.residual_rolling_friction"
     number = {"values": [1.0, 2.0], "mean": 1.5, "half_width": 0.5}

@@ -1,4 +1,6 @@
-"""Columns, piles, scripts and lessons that a plain Python runs in processes of their own; what it needs for that, and what it says where something is missing."""
+"""Columns, piles, scripts and lessons that a plain Python runs in processes of their own; what it needs for that, and
+what it says where something is missing.
+"""
 
 import ast
 import importlib
@@ -50,7 +52,8 @@ def test_both_worlds_begin_with_the_same_places_and_are_what_was_asked_for(colum
     assert (hard.heap, soft.heap) == (SMALL, SMALL) and (hard.world, soft.world["stiffness"]) == ({}, 1e8)
     assert (hard.summary["world"], soft.summary["world"]) == ("hard", "soft")
     (t, places, r), (_, others, _) = hard.places(), soft.places()
-    # springs settle under the weight before the gate goes, and some disks move aside; each keeps its place among its neighbours, less than half a diameter away
+    # springs settle under the weight before the gate goes, and some disks move aside; each keeps its place among its
+    # neighbours, less than half a diameter away
     assert np.max(np.abs(np.array(places[0]) - np.array(others[0]))) < 0.25 * SMALL.diameter
     # it falls: the heap's centre of mass goes down, by the weight of which it gets its speed
     for run in (hard, soft):
@@ -141,8 +144,12 @@ def test_a_script_has_its_parameters_and_leaves_what_it_says_and_its_scene(scrip
     assert run.figure().axes and campaign.open_script(run.folder).output == run.output
     # the working folder is the run's: what the script leaves there is found
     assert "ZnJhbWVz" in run.video()._repr_html_()  # "frames", in base 64
-    for ask, words in ((lambda: run.number("way"), "no line with 'way'"), (lambda: run.table("speed"), "begins with 'speed'"),
-                       (lambda: run.video("right.mp4"), "no video called 'right.mp4' to show; give one of left.mp4")):  # fmt: skip
+    for ask, words in (
+        (lambda: run.number("way"), "no line with 'way'"),
+        (lambda: run.table("speed"), "begins with 'speed'"),
+        # fmt: skip
+        (lambda: run.video("right.mp4"), "no video called 'right.mp4' to show; give one of left.mp4"),
+    ):
         with pytest.raises(runs.RunError, match=words):
             ask()
 
@@ -308,7 +315,9 @@ def test_a_plain_python_runs_a_lesson(tmp_path):
 
 
 def test_a_comparison_is_asked_for_and_opened_with_its_answers(tmp_path, monkeypatch):
-    """What a comparison finds is judged in test_comparison.py: here a made-up one, by way of the function that a process calls."""
+    """What a comparison finds is judged in test_comparison.py: here a made-up one, by way of the function that a
+    process calls.
+    """
     asked, told = {}, [("Do both run out as far?", "yes", ["By 3 %."])]
 
     def compare(scenario, out, seeds, **more):
@@ -430,7 +439,9 @@ def test_a_notebook_shows_the_message_alone(tmp_path):
 
 
 def test_the_sheets_numbers_are_the_known_ones():
-    """doc/measured/exercises.json, which test_notebooks.py makes anew; bounds are what a step, or a bond's zone, leaves."""
+    """doc/measured/exercises.json, which test_notebooks.py makes anew; bounds are what a step, or a bond's zone,
+    leaves.
+    """
     e = EXERCISES
     assert e["fall"]["speed"] == pytest.approx((2 * 9.81) ** 0.5, abs=9.81e-3)  # one step of 1 ms
     # the disk bounces within a step, 4 mm before or after the floor at 4.4 m/s; later impacts are relatively coarser

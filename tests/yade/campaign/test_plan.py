@@ -1,4 +1,6 @@
-"""A plan of runs in its folder: whose result is whose, what goes into the table, what is refused; the runs are made up. Needs no YADE."""
+"""A plan of runs in its folder: whose result is whose, what goes into the table, what is refused; the runs are made up.
+Needs no YADE.
+"""
 
 import csv
 import json
@@ -79,7 +81,9 @@ def test_the_same_values_of_another_section_are_another_run():
 
 
 def test_no_result_of_other_input_is_taken(tmp_path, called):
-    """The same names and values, and another number among the arguments: all are done again, and none is collected before."""
+    """The same names and values, and another number among the arguments: all are done again, and none is collected
+    before.
+    """
     planned(g=9.81).run(tmp_path, 1)
     other = planned(g=1.62)
     called.clear()
@@ -250,7 +254,9 @@ def test_means_are_written_where_seeds_were_varied_and_nowhere_else(tmp_path, ca
 
 
 def test_means_of_each_combination_and_verdict():
-    """Of eight runs by two frictions, two densities and two seeds, one of which stood; and of runs without seeds or verdicts, each a row of its own."""
+    """Of eight runs by two frictions, two densities and two seeds, one of which stood; and of runs without seeds or
+    verdicts, each a row of its own.
+    """
     combos = [(f, d, s) for f in (0.3, 0.6) for d in (1, 2) for s in (7, 8)]
     table = {
         "run": [f"r{k}" for k in range(8)],

@@ -1,4 +1,6 @@
-"""How commands end: one line on a line of its own and a status of 1 for what a user can mend, 130 after Ctrl-C; nothing half-written; one run at a time in a folder."""
+"""How commands end: one line on a line of its own and a status of 1 for what a user can mend, 130 after Ctrl-C; nothing
+half-written; one run at a time in a folder.
+"""
 
 import ast
 import json
@@ -317,7 +319,9 @@ def test_half_written_files_are_no_snapshots(tmp_path):
 
 
 def test_nothing_lists_files_but_asks_for_whole_ones():
-    """Lists of folders' contents stand in whole_files.py, and where no run writes: shipped sections, the processor's caches, this package and the engines."""
+    """Lists of folders' contents stand in whole_files.py, and where no run writes: shipped sections, the processor's
+    caches, this package and the engines.
+    """
     package = Path(whole_files.__file__).resolve().parents[1]
     lists = [
         path.name

@@ -1,4 +1,6 @@
-"""Every option of every command reaches what it is for: the value is found in what the command asks its library to do. The lists of options are the parsers' own."""
+"""Every option of every command reaches what it is for: the value is found in what the command asks its library to do.
+The lists of options are the parsers' own.
+"""
 import argparse
 import contextlib
 import runpy

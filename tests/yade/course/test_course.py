@@ -41,7 +41,9 @@ class Row:
 
 
 def play(s, speed, start=None, also=lambda time: {}):
-    """Rows of a slope whose mean speed at a time is ``speed(time)``, until it is done; ``start``: a State to go on from, and its time; ``also(time)``: what else is seen then."""
+    """Rows of a slope whose mean speed at a time is ``speed(time)``, until it is done; ``start``: a State to go on
+    from, and its time; ``also(time)``: what else is seen then.
+    """
     at = scales.of(s)
     state, time = start or (course.State(), 0.0)
     table, rows = course.water_table(state, s), []
@@ -454,7 +456,9 @@ def test_the_shipped_section_has_the_scales_that_it_had():
     ],
 )
 def test_scales_of_other_slopes(size, gravity, row, mean):
-    """Rows and means are the nearest of 1, 2 and 5 times a power of ten, by ratio: √12 = 3.46 is 1.45 times less than 5 and 1.73 times more than 2."""
+    """Rows and means are the nearest of 1, 2 and 5 times a power of ten, by ratio: √12 = 3.46 is 1.45 times less than 5
+    and 1.73 times more than 2.
+    """
     other, speed, time = scaled(slope(), size, gravity)
     found = scales.of(dataclasses.replace(other, numerics=dataclasses.replace(SHIPPED.numerics, time_step=1e-5)))
     assert (
@@ -480,7 +484,9 @@ def test_rows_are_no_closer_than_steps():
 
 
 def scaled(s, size, gravity):
-    """A section ``size`` times as large in a ``gravity`` times as strong one, with its stages and its water in proportion; and its units of speed and time."""
+    """A section ``size`` times as large in a ``gravity`` times as strong one, with its stages and its water in
+    proportion; and its units of speed and time.
+    """
     speed, time = math.sqrt(size * gravity), math.sqrt(size / gravity)
     layers = tuple(
         dataclasses.replace(layer, vertices=tuple((size * x, size * y) for x, y in layer.vertices))
@@ -556,7 +562,9 @@ def test_slopes_of_other_sizes_do_the_same_in_their_units(name, size, gravity, h
 
 # ---- what is foreseen -------------------------------------------------------------------------------
 def test_the_end_is_foreseen():
-    """55 s of motion; before that 25 m of water, or the whole time where nothing holds it; never the past, and never after the latest end."""
+    """55 s of motion; before that 25 m of water, or the whole time where nothing holds it; never the past, and never
+    after the latest end.
+    """
     s = slope(end=150.0, rate=0.5)
     assert course.foreseen(course.State("done", settled=1.0, moving=9.0), 70.0, s) == 70.0
     assert course.foreseen(course.State("water", settled=1.0, t0=1.5, moving=9.0), 20.0, s) == 64.0

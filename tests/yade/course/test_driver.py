@@ -1,4 +1,6 @@
-"""The driver of every course, by a made-up one: in which order it asks, when it writes checkpoints, and what Ctrl-C and errors leave."""
+"""The driver of every course, by a made-up one: in which order it asks, when it writes checkpoints, and what Ctrl-C and
+errors leave.
+"""
 import os
 import signal
 from types import SimpleNamespace
@@ -105,7 +107,9 @@ def test_it_goes_on_after_an_error():
 
 @pytest.mark.parametrize("saving, rows", [(0.0, [2, 4]), (3.0, [2])])
 def test_checkpoints_come_by_wall_time_and_take_a_fiftieth_of_it(saving, rows, monkeypatch):
-    """Rows of 50 s, a checkpoint every 90 s: after two rows, and after two more unless writing the first took 3 s, which wants 150 s."""
+    """Rows of 50 s, a checkpoint every 90 s: after two rows, and after two more unless writing the first took 3 s,
+    which wants 150 s.
+    """
     clock = SimpleNamespace(now=0.0)
     monkeypatch.setattr(driver.time, "monotonic", lambda: clock.now)
 

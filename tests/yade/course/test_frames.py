@@ -1,4 +1,6 @@
-"""Which snapshots a run keeps: those of its characteristic times are there to the row, whatever comes, and little else. Made-up courses, by the rules of course.py. Needs no YADE."""
+"""Which snapshots a run keeps: those of its characteristic times are there to the row, whatever comes, and little else.
+Made-up courses, by the rules of course.py. Needs no YADE.
+"""
 
 from dataclasses import asdict
 
@@ -17,8 +19,8 @@ STEP = 0.01  # s
 
 
 def story(seed, backstop=True, dry=False):
-    """A made-up run: its rows (mappings) and the states after them. It settles in 2 s, rests and gets wet; it stirs, mostly stops again, gets going at last and rests.
-    ``dry``: it fails by its weight, or while it has not stood yet."""
+    """A made-up run: its rows (mappings) and the states after them. It settles in 2 s, rests and gets wet; it stirs,
+    mostly stops again, gets going at last and rests. ``dry``: it fails by its weight, or while it has not stood yet."""
     chance = np.random.default_rng(seed)
     speeds = [*chance.uniform(0.006, 0.5, 18), *[0.004] * 5, *chance.uniform(0.0, 0.03 if dry else 0.019, 40)]
     if dry:
@@ -112,7 +114,9 @@ def test_the_made_up_courses_are_of_all_kinds():
 
 @pytest.mark.parametrize("seed, backstop, dry", STORIES[::2])
 def test_what_becomes_a_characteristic_time_has_always_been_kept(seed, backstop, dry):
-    """At each row the times by the rows so far are among those kept since, and what was given up once does not come back."""
+    """At each row the times by the rows so far are among those kept since, and what was given up once does not come
+    back.
+    """
     rows, states = story(seed, backstop, dry)
     kept, most = None, 0
     for k, (_, state) in enumerate(states):
@@ -178,7 +182,9 @@ def test_snapshots_are_of_equal_distances_and_of_what_is_wanted(tmp_path, seed, 
 
 @pytest.mark.parametrize("seed, backstop, dry", STORIES[:4])
 def test_a_killed_run_that_is_resumed_has_the_same_files(tmp_path, seed, backstop, dry):
-    """Killed some rows after a checkpoint, again and again; wherever the second run ends with a checkpoint, its files are those of one that was never killed."""
+    """Killed some rows after a checkpoint, again and again; wherever the second run ends with a checkpoint, its files
+    are those of one that was never killed.
+    """
     told = story(seed, backstop, dry)
     count = len(told[0])
     for first in range(20 + seed, count - 8, 31):

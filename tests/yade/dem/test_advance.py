@@ -1,4 +1,6 @@
-"""ContactDynamicsEngine.advance: the same steps as O.step makes, from the caller's thread, ended by signals and by what engines refuse."""
+"""ContactDynamicsEngine.advance: the same steps as O.step makes, from the caller's thread, ended by signals and by what
+engines refuse.
+"""
 import math
 import os
 import signal
@@ -351,7 +353,8 @@ def test_without_a_view_tables_are_true_and_bodies_wait():
     e.advance(20, view=False)
     e.advance(until=O.time + 20 * O.dt, view=())
     assert e.bodyTable() == whole and O.iter == 60
-    # functors look at disks that have come near each other; and others may look, where a busy machine has let 0.05 s go by
+    # functors look at disks that have come near each other; and others may look, where a busy machine has let 0.05 s go
+    # by
     assert e.views > views or sum(a == b for a, b in zip(before, places())) > 10
     views = e.views
     e.view()
@@ -360,7 +363,9 @@ def test_without_a_view_tables_are_true_and_bodies_wait():
 
 
 def test_bodies_that_are_asked_for_are_up_to_date_and_what_is_made_of_them_counts():
-    """One disk is looked at and driven in every step, as a platen is; all others wait. The same as where all is seen."""
+    """One disk is looked at and driven in every step, as a platen is; all others wait. The same as where all is
+    seen.
+    """
     ends = []
     for alone in (True, False):
         O.reset()
@@ -403,7 +408,9 @@ def test_a_body_that_is_another_one_now_is_taken_anew(change):
 @pytest.mark.parametrize("steps", [1, 40])
 @pytest.mark.parametrize("viewed", [True, False])
 def test_interactions_that_are_erased_meanwhile_end(steps, viewed):
-    """At once where all was brought up to date before, and otherwise once it is, or once the collider looks for pairs anew; nothing points to what is gone."""
+    """At once where all was brought up to date before, and otherwise once it is, or once the collider looks for pairs
+    anew; nothing points to what is gone.
+    """
     ends = []
     for view in (False, True):
         O.reset()

@@ -63,7 +63,9 @@ def test_small_oscillations_have_the_exact_period(big, small, where):
 
 @pytest.mark.parametrize("spin", [2.0, -0.7])
 def test_a_drum_with_friction_turns_a_disk(spin):
-    """Friction takes a disk at rest along until it rolls: its rim has the speed of the drum's, v + ω r = Ω R. It swings about the lowest point then, and its mean spin is ω r = Ω R."""
+    """Friction takes a disk at rest along until it rolls: its rim has the speed of the drum's, v + ω r = Ω R. It swings
+    about the lowest point then, and its mean spin is ω r = Ω R.
+    """
     big, small = 1.5, 0.2
     i = bowl(big, small, 0.0, mu=0.3, part=(0, 2 * math.pi))
     O.bodies[0].state.angVel = (0, 0, spin)
@@ -81,7 +83,9 @@ def test_a_drum_with_friction_turns_a_disk(spin):
 
 
 def test_a_drum_that_turns_feels_the_friction_at_its_radius():
-    """A disk that cannot turn slides in a drum: torque μ N R about the drum's centre, and the way it lies where tan θ = μ."""
+    """A disk that cannot turn slides in a drum: torque μ N R about the drum's centre, and the way it lies where tan θ =
+    μ.
+    """
     big, small, mu = 1.5, 0.2, 0.3
     i = bowl(big, small, math.atan(mu), mu=mu, part=(0, 2 * math.pi))
     O.bodies[i].state.blockedDOFs = "zXYZ"
@@ -196,8 +200,8 @@ def test_the_end_of_an_arc_is_a_corner():
 @pytest.mark.parametrize("drop", [20, 80])
 @pytest.mark.parametrize("arc_first", [True, False])
 def test_a_corner_of_an_arc_and_a_segment_has_one_contact(arc_first, drop, end):
-    """A cap of 60 degrees and a wall that falls away from one of its ends, the corner being convex: whoever presses on the corner, from any direction
-    between the two, is held by one contact, against which it moves."""
+    """A cap of 60 degrees and a wall that falls away from one of its ends, the corner being convex: whoever presses on
+    the corner, from any direction between the two, is held by one contact, against which it moves."""
     side = -1 if end == "last" else 1  # of the corner; arcs run counter-clockwise
     slope = math.radians(30 + drop)
     corner = np.array([side * math.sin(math.radians(30)), math.cos(math.radians(30))])
@@ -290,7 +294,9 @@ def test_restitution_in_a_bowl_is_that_of_the_material():
 
 @pytest.mark.parametrize("restitution", [0.6, 1.0])
 def test_a_disk_with_restitution_swings_and_does_not_jump(restitution):
-    """In each step of a swing it approaches the wall by half of the turn of its path: what the chord gives back is not given back twice."""
+    """In each step of a swing it approaches the wall by half of the turn of its path: what the chord gives back is not
+    given back twice.
+    """
     i = bowl(2.0, 0.1, 1.0, mu=0.0)
     O.materials[0].restitution = restitution
     begin(dt=5e-3)
@@ -298,7 +304,8 @@ def test_a_disk_with_restitution_swings_and_does_not_jump(restitution):
     for _ in range(300):
         run(2)
         gap = max(gap, 1.9 - math.hypot(*tuple(O.bodies[i].state.pos)[:2]))
-    # a step turns it by 9e-3, a chord is 8e-5 m from its arc; velocities belong to the middle of the step, which is 1e-3 of the energy
+    # a step turns it by 9e-3, a chord is 8e-5 m from its arc; velocities belong to the middle of the step, which is
+    # 1e-3 of the energy
     assert gap < 3e-4 and energy(i, -1.9) == pytest.approx(first, rel=3e-3)
 
 
@@ -344,7 +351,9 @@ def test_disks_bond_to_an_arc(gap, kind):
 @pytest.mark.parametrize("inside", [True, False])
 @pytest.mark.parametrize("small, turn", [(0.2, 0.03), (0.2, 0.1), (0.003, 0.01)])
 def test_a_bond_to_a_drum_that_turns_holds(inside, small, turn):
-    """A disk that is bonded to a drum of 1 m goes round with it, in steps of ``turn`` [rad], as it would with a disk of that size."""
+    """A disk that is bonded to a drum of 1 m goes round with it, in steps of ``turn`` [rad], as it would with a disk of
+    that size.
+    """
     omega, dt = 3.0, turn / 3.0
     stuff = material(0.6, 0.5, tensileStrength=1e9, bondsToAll=True)
     drum = O.bodies.append(scene.arc((0, 0), 1, 0, 2 * math.pi, stuff, inside=inside))
@@ -410,7 +419,9 @@ def test_what_is_no_arc_is_told(words, more):
 
 @pytest.mark.parametrize("big, small, slope, dt", [(3.0, 0.2, 40, 1e-3), (10.0, 0.5, 30, 2e-3), (1.0, 0.05, 30, 5e-4)])
 def test_a_disk_rolls_over_a_hill(big, small, slope, dt):
-    """Floor, arc (its inside), incline, arc (its outside), and a floor on top, all with common tangents: what it loses of its speed is the height."""
+    """Floor, arc (its inside), incline, arc (its outside), and a floor on top, all with common tangents: what it loses
+    of its speed is the height.
+    """
     stuff, angle = material(2.0), math.radians(slope)
     foot = big * math.sin(angle), big * (1 - math.cos(angle))
     top = foot[0] + big * math.cos(angle), foot[1] + big * math.sin(angle)
@@ -434,7 +445,9 @@ def test_a_disk_rolls_over_a_hill(big, small, slope, dt):
 
 
 def test_forces_on_an_arc_are_counted_by_the_chords_of_its_pieces():
-    """Six pieces, one of which has its middle at the lowest point, where a disk lies: its weight is the normal force."""
+    """Six pieces, one of which has its middle at the lowest point, where a disk lies: its weight is the normal
+    force.
+    """
     stuff = material(0.3)
     drum = O.bodies.append(scene.arc((0, 0), 1, 0, 2 * math.pi, stuff, piece=1.05))
     i = O.bodies.append(scene.disk((0, -0.8), 0.2, stuff))

@@ -1,4 +1,6 @@
-"""O.run() in the background: no error that ends it is lost, neither for the script nor for whoever reads the status of its process."""
+"""O.run() in the background: no error that ends it is lost, neither for the script nor for whoever reads the status of
+its process.
+"""
 import math
 import os
 import subprocess
@@ -284,7 +286,9 @@ def test_status_of_a_script(then, status, told, tmp_path):
 
 
 def test_a_plain_python_and_its_forks(tmp_path):
-    """YADE in a Python that is not its program: ends with 1 too, and a fork, which has heard as little, leaves that to its parent."""
+    """YADE in a Python that is not its program: ends with 1 too, and a fork, which has heard as little, leaves that to
+    its parent.
+    """
     script = tmp_path / "refused.py"
     fork = "import os\nif os.fork() == 0:\n    sys.exit(0)\nprint('fork', os.waitstatus_to_exitcode(os.wait()[1]))\n"
     script.write_text(f"import sys\nsys.path.insert(0, {os.path.join(yade.config.libDir, 'py')!r})\n{SCENE}{fork}")

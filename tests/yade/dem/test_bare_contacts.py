@@ -14,7 +14,9 @@ SIDE = 20
 
 
 def lattice(stuff=lambda k: None, stirred=0.0):
-    """Disks of 1 m side by side, all touching from above to below; stirred they shear past each other, so that contacts come and go. There are no walls."""
+    """Disks of 1 m side by side, all touching from above to below; stirred they shear past each other, so that contacts
+    come and go. There are no walls.
+    """
     shared = material(0.3, 0.05, tensileStrength=2e3, layer=1)
     ids = [free_disk(1.0 * (k % SIDE), 0.999 * (k // SIDE), stuff=stuff(k) or shared) for k in range(SIDE * SIDE)]
     for k, i in enumerate(ids):
@@ -96,7 +98,9 @@ def without_signs_of_zeros(value):
 
 
 def test_bonds_of_contacts_that_nobody_has_seen():
-    """They are made, yield, grow and break as those of interactions do, and the arrays can take them from there. A zero that has been turned has no sign."""
+    """They are made, yield, grow and break as those of interactions do, and the arrays can take them from there. A zero
+    that has been turned has no sign.
+    """
 
     def bonded_unseen():
         stuff = material(0.5, 0.05, tensileStrength=5e2, bondCreationDistance=0.01, restitution=0.1)

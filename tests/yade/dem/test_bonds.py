@@ -1,4 +1,6 @@
-"""Cohesive bonds between two disks: thresholds of eqs (2), (4) and (6), the elliptic zone, residual strength, layers."""
+"""Cohesive bonds between two disks: thresholds of eqs (2), (4) and (6), the elliptic zone, residual strength,
+layers.
+"""
 import math
 
 import numpy as np
@@ -162,7 +164,9 @@ def test_bond_opened_in_tension_keeps_its_new_length():
 
 
 def moved(normal=0.0, tangential=0.0, turned=(0.0, 0.0)):
-    """Whether a bond with half-axes of 0.02 and 0.01 ℓ holds after its second disk was moved [ℓ], and both were turned [rad]."""
+    """Whether a bond with half-axes of 0.02 and 0.01 ℓ holds after its second disk was moved [ℓ], and both were turned
+    [rad].
+    """
     free = pair(bondEllipseNormal=0.02, bondEllipseTangential=0.01)
     O.bodies[free].state.blockedDOFs = "xyzXYZ"
     O.bodies[free].state.pos = (LENGTH * (1 + normal), LENGTH * tangential, 0)
@@ -174,7 +178,8 @@ def moved(normal=0.0, tangential=0.0, turned=(0.0, 0.0)):
 
 @pytest.mark.parametrize("normal, tangential", [(1, 0), (0, 1), (0, -1), (0.8, 0.6), (0.6, -0.8)])
 def test_a_bond_holds_inside_its_ellipse(normal, tangential):
-    # the frame follows the disks, by angles of a hundredth: 1 % of the path along the other axis, which is as long again at most
+    # the frame follows the disks, by angles of a hundredth: 1 % of the path along the other axis, which is as long
+    # again at most
     assert moved(0.97 * 0.02 * normal, 0.97 * 0.01 * tangential)
     O.reset()
     assert not moved(1.03 * 0.02 * normal, 1.03 * 0.01 * tangential)
@@ -182,7 +187,9 @@ def test_a_bond_holds_inside_its_ellipse(normal, tangential):
 
 @pytest.mark.parametrize("turned", [(1, 0), (0, 1), (-0.5, 0.5), (0.5, 0.5), (3, -3)])
 def test_a_bond_is_marked_where_the_disks_touch(turned):
-    """Disks that turn by θ₁ and θ₂ move the two points apart by R (θ₁ + θ₂); those that roll on each other not at all."""
+    """Disks that turn by θ₁ and θ₂ move the two points apart by R (θ₁ + θ₂); those that roll on each other not at
+    all.
+    """
     share = abs(sum(turned))
     for path in (0.97, 1.03):  # of the half-axis; R = ℓ/2
         assert moved(turned=[path * 0.02 * t for t in turned]) == (path * share < 1)
@@ -257,7 +264,9 @@ def test_a_break_is_named_by_what_makes_more_than_60_per_cent_of_the_path(openin
 
 @pytest.mark.parametrize("first, second", [(1, 2), (2, 1)])
 def test_a_bond_that_is_made_again_is_named_by_its_own_path(first, second):
-    """Broken in tension (1) and bonded again, a pair that is sheared off broke in shear (2), and the other way round: what the first bond had yielded is not the second one's."""
+    """Broken in tension (1) and bonded again, a pair that is sheared off broke in shear (2), and the other way round:
+    what the first bond had yielded is not the second one's.
+    """
     free = pair(rolling=0.0, tensileStrength=1.0, bondEllipseNormal=0.02, bondEllipseTangential=0.02)
     s, e = O.bodies[free].state, engine()
     s.blockedDOFs, O.dt = "zXYZ", 1e-3

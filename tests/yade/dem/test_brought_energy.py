@@ -1,4 +1,6 @@
-"""The energy that others bring between steps and take away, counted for itself: the balance closes whatever comes and goes."""
+"""The energy that others bring between steps and take away, counted for itself: the balance closes whatever comes and
+goes.
+"""
 import math
 import random
 
@@ -155,7 +157,9 @@ def test_it_goes_on_after_a_load(change, tmp_path):
 
 
 def test_a_driven_direction_of_a_body_that_is_free_along_another_is_the_walls_work():
-    """A plate lifted at a given speed, free to move sideways: what lifts its weight works, and nobody else has brought anything."""
+    """A plate lifted at a given speed, free to move sideways: what lifts its weight works, and nobody else has brought
+    anything.
+    """
     (plate,) = O.bodies.append(scene.segments([(-1, 0), (1, 0)], material(0.3)))
     s = O.bodies[plate].state
     s.mass, s.blockedDOFs, s.vel = 100.0, "yzXYZ", (0, 2, 0)

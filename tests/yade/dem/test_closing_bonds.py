@@ -1,4 +1,6 @@
-"""Bonds over gaps that close freely (NscdMat.bondsClose): compression at touch, tension at their length, shear everywhere; the same bits in any way to run them."""
+"""Bonds over gaps that close freely (NscdMat.bondsClose): compression at touch, tension at their length, shear
+everywhere; the same bits in any way to run them.
+"""
 import math
 from dataclasses import replace
 
@@ -219,7 +221,9 @@ def test_a_row_that_is_pressed_closes_all_its_gaps_and_none_overlaps():
 
 @pytest.mark.parametrize("beyond", [2e-3, 5e-3])
 def test_what_a_bond_was_stretched_beyond_its_length_is_taken_back(beyond):
-    """By displacements, up to what may stay, while the bond is pulled at its length: by a script that moves a disk, with an ellipse that holds it."""
+    """By displacements, up to what may stay, while the bond is pulled at its length: by a script that moves a disk,
+    with an ellipse that holds it.
+    """
     free = pair(bondEllipseNormal=0.05)
     load(free, normal=-0.5 * F_A)
     run(5)

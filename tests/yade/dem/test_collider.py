@@ -1,4 +1,6 @@
-"""PlanarGridCollider: the same contacts as with YADE's own collider and loop, and none that brute force would not find."""
+"""PlanarGridCollider: the same contacts as with YADE's own collider and loop, and none that brute force would not
+find.
+"""
 import math
 import random
 
@@ -31,7 +33,9 @@ def collider():
 
 
 def gas(count=150, side=30.0, speed=20.0, seed=3, far=None):
-    """Disks of sizes one to ten that fly about in a box, by up to a radius a step: the small ones become faster than they begin. Returns their ids."""
+    """Disks of sizes one to ten that fly about in a box, by up to a radius a step: the small ones become faster than
+    they begin. Returns their ids.
+    """
     dice = random.Random(seed)
     stuff = material(0.3, restitution=1.0)
     box(stuff, side, side)
@@ -62,7 +66,9 @@ def near(ids):
 
 
 def near_or_fast(ids, far):
-    """Pairs of disks within ``far`` that are within reach, or may be in two steps by the speed of one of them against a disk that it may meet so soon."""
+    """Pairs of disks within ``far`` that are within reach, or may be in two steps by the speed of one of them against a
+    disk that it may meet so soon.
+    """
     rows = [
         (i, *tuple(O.bodies[i].state.pos)[:2], O.bodies[i].shape.radius, *tuple(O.bodies[i].state.vel)[:2]) for i in ids
     ]
@@ -213,7 +219,8 @@ def test_potential_interactions_with_walls_end_when_disks_have_left():
             along = wall.state.ori * (wall.shape.halfLength, 0, 0)
             low, high = ([sign * abs(along[k]) + wall.state.pos[k] for k in (0, 1)] for sign in (-1, 1))
             apart = max(max(low[k] - disk.state.pos[k], disk.state.pos[k] - high[k], 0) for k in (0, 1))
-            # along each axis within reach of the box and half a square's margin when pairs were looked up, and a quarter gone since, and the step that was made after the collider
+            # along each axis within reach of the box and half a square's margin when pairs were looked up, and a
+            # quarter gone since, and the step that was made after the collider
             assert (
                 apart
                 <= (2 * (1 + REACH) - 1) * disk.shape.radius

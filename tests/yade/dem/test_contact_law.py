@@ -28,8 +28,8 @@ def incline(mu, rolling=0.0, radius=0.5, piece=0.25, turns=True, wall=None, leng
 
 
 def follow(disk, acceleration, steps, dt=1e-3, tolerance=1e-9):
-    """Runs and checks speed, place and that one contact at most acts. Exact in Moreau-Jean stepping, whose constant acceleration gives
-    v = a t and x = a t (t + h)/2; the tolerance is the solver's and the rounding of many steps."""
+    """Runs and checks speed, place and that one contact at most acts. Exact in Moreau-Jean stepping, whose constant
+    acceleration gives v = a t and x = a t (t + h)/2; the tolerance is the solver's and the rounding of many steps."""
     begin(dt=dt)
     start = O.bodies[disk].state.pos
     for _ in range(steps // 20):
@@ -101,7 +101,9 @@ def test_convex_corner_is_rounded_with_one_contact(drop):
 
 
 def test_a_wall_made_backwards_is_the_mirrored_wall():
-    """Disks on a floor, in the wedge outside a convex corner and in a concave one: mirrored to the last bit, with the same bodies in the same order."""
+    """Disks on a floor, in the wedge outside a convex corner and in a concave one: mirrored to the last bit, with the
+    same bodies in the same order.
+    """
     corners = [(-4, 0.5), (-1, 0), (2, -2.5), (5, -1)]
 
     def course(mirrored):
@@ -132,7 +134,9 @@ def test_a_wall_made_backwards_is_the_mirrored_wall():
 @pytest.mark.parametrize("sense", [1, -1])
 @pytest.mark.parametrize("side", [1, -1])
 def test_a_one_sided_wall_holds_on_its_side_alone(sense, side):
-    """+1 is the left of the direction of travel. Behind the wall disks pass, but one whose centre is there by less than its radius is pushed through to the front."""
+    """+1 is the left of the direction of travel. Behind the wall disks pass, but one whose centre is there by less than
+    its radius is pushed through to the front.
+    """
     stuff = material(0.3)
     O.bodies.append(scene.segments([(-5, 0), (5, 0)], stuff, sense=sense))
     speed, rate, slack = 0.2, 0.25, 1e-3
@@ -222,7 +226,9 @@ def test_step_weakening_drops_friction_at_the_critical_slip():
     ],
 )
 def test_friction_and_cohesion_fall_by_the_law_of_their_wall(law, left):
-    """Two disks that do not turn are drawn along a wall at their own speeds; a step works with the slip before it, disk by disk."""
+    """Two disks that do not turn are drawn along a wall at their own speeds; a step works with the slip before it, disk
+    by disk.
+    """
     strong, weak, cohesion, rest, critical, h = 0.5, 0.2, 3e3, 1e3, 0.2, 2e-3
     wall = material(
         strong,

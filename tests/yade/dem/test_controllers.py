@@ -1,4 +1,6 @@
-"""YADE's engines that steer walls: those that ask for what rigid contacts have not are refused by name, and what moves or loads bodies works as ever."""
+"""YADE's engines that steer walls: those that ask for what rigid contacts have not are refused by name, and what moves
+or loads bodies works as ever.
+"""
 import math
 
 import pytest
@@ -121,7 +123,9 @@ def test_a_disk_gets_the_speed_of_a_wall_that_an_engine_moves(motion):
 
 
 def shear_box():
-    """Six boxes as YADE's engines of simple shear want them, the sides and what is in front far from the disk between floor and lid; ids as options, and the disk's."""
+    """Six boxes as YADE's engines of simple shear want them, the sides and what is in front far from the disk between
+    floor and lid; ids as options, and the disk's.
+    """
     stuff = material(0)
     ids = {}
     for name, centre, half in (

@@ -1,4 +1,6 @@
-"""ContactDynamicsEngine in a scene: stacks, momentum, impact, driven walls, other engines, energies, refusals, save and load."""
+"""ContactDynamicsEngine in a scene: stacks, momentum, impact, driven walls, other engines, energies, refusals, save and
+load.
+"""
 import ctypes
 import math
 import random
@@ -128,7 +130,9 @@ def test_gaps_that_stay_open_are_left_out():
 
 @pytest.mark.parametrize("other", ["disk", "wall"])
 def test_a_contact_that_pulled_and_is_left_out_bears_nothing(other):
-    """Residual adhesion holds a disk that is drawn away; moved off by a script, it is open, and neither table nor contact has a pull any more."""
+    """Residual adhesion holds a disk that is drawn away; moved off by a script, it is open, and neither table nor
+    contact has a pull any more.
+    """
     stuff = material(0.3, residualTensileStrength=1e4)
     if other == "disk":
         O.bodies.append(scene.disk((0, 0), 0.5, stuff, fixed=True))
@@ -210,7 +214,9 @@ def test_driven_wall_pushes_and_works():
 
 
 def test_who_is_hit_hits_the_next_without_overlap():
-    """The first disk closes its gap of 0.1 m in a step of 5 ms and passes on more than 20 m/s, far more than the second gap of 0.08 m needs."""
+    """The first disk closes its gap of 0.1 m in a step of 5 ms and passes on more than 20 m/s, far more than the second
+    gap of 0.08 m needs.
+    """
     stuff = material(0.0)
     for x, speed in ((0, 100), (1.1, 0), (2.18, 0), (3.26, 0)):
         O.bodies[free_disk(x, 0, stuff=stuff)].state.vel = (speed, 0, 0)
@@ -297,7 +303,9 @@ def test_energy_of_a_block_that_slides_to_rest():
 
 
 def test_energy_by_the_wall_that_was_slid_on():
-    """Two blocks on floors of their own, one of two pieces that it passes from one to the other, and one on a disk that is held, which is no wall."""
+    """Two blocks on floors of their own, one of two pieces that it passes from one to the other, and one on a disk that
+    is held, which is no wall.
+    """
     stuff = material(0.3)
     pieces, upper = (
         [O.bodies.append(b) for b in scene.segments(ends, stuff, sense=1)]
@@ -652,7 +660,8 @@ def test_unknown_settings_are_refused():
 
 def test_contacts_recalled_in_a_step_stand_in_the_order_of_ids(tmp_path):
     stuff = material(0.3)
-    # the flying one hits its neighbour, which nothing approaches yet, and that one hits the next: contacts 1-2, then 0-1, then 3-4 which was there before
+    # the flying one hits its neighbour, which nothing approaches yet, and that one hits the next: contacts 1-2, then
+    # 0-1, then 3-4 which was there before
     for x, speed in ((2.4, 0), (1.2, 0), (0, 100), (10, 0), (11, 0)):
         free_disk(x, 0, (speed, 0, 0), stuff)
     begin(gravity=(0, 0, 0), dt=1e-2, reach=0.5)
@@ -676,8 +685,8 @@ def test_contacts_recalled_in_a_step_stand_in_the_order_of_ids(tmp_path):
     ids=["arrays", "read anew", "YADE's own loop"],
 )
 def test_contacts_that_came_late_stand_in_the_order_of_ids_too(tmp_path, engines):
-    """In the arrays, beside an engine that may change anything, so that all are read anew, and from the list where YADE's own loop has just made one; whoever looks
-    afterwards finds them so too."""
+    """In the arrays, beside an engine that may change anything, so that all are read anew, and from the list where
+    YADE's own loop has just made one; whoever looks afterwards finds them so too."""
     first, late, early = (free_disk(x, 0) for x in (0, -5, 1))
     begin(gravity=(0, 0, 0))
     O.engines = engines()

@@ -1,4 +1,6 @@
-"""Walls that a script or an engine moves by their positions: what touches them gets the velocity of that motion, and a wall that is placed gives none."""
+"""Walls that a script or an engine moves by their positions: what touches them gets the velocity of that motion, and a
+wall that is placed gives none.
+"""
 import math
 
 import pytest
@@ -81,7 +83,9 @@ def test_work_on_a_piston_is_that_of_its_speed():
 
 
 def test_a_disk_is_turned_by_a_wheel_that_is_turned_by_its_orientation():
-    """Two disks that touch, one with all DOFs blocked and turned by 2 rad/s: the other rolls on it, with rims at one speed in the end."""
+    """Two disks that touch, one with all DOFs blocked and turned by 2 rad/s: the other rolls on it, with rims at one
+    speed in the end.
+    """
     stuff = material(0.5)
     wheel = O.bodies.append(scene.disk((0, 0), 0.5, stuff, fixed=True))
     disk = free_disk(1, 0, stuff=stuff)

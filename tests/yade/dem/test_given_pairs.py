@@ -1,4 +1,6 @@
-"""Contacts of two bodies whose motions are both given: what the law says of that motion acts, and YADE's LawTester finds the law's thresholds."""
+"""Contacts of two bodies whose motions are both given: what the law says of that motion acts, and YADE's LawTester
+finds the law's thresholds.
+"""
 import math
 
 import pytest
@@ -38,7 +40,9 @@ def pair(angle=0.0, radii=(0.5, 0.5), swapped=False, stuff=None):
 
 
 def give_path(steps=1000, after=(), roll=0.0, **path):
-    """Gives the two disks their path; the LawTester stands before the solver. ``roll`` [rad]: LawTester's own rotPath is one of angular velocities."""
+    """Gives the two disks their path; the LawTester stands before the solver. ``roll`` [rad]: LawTester's own rotPath
+    is one of angular velocities.
+    """
     if roll:
         path["rotPath"] = [(0, 0, roll / O.dt)]
     tester = LawTester(ids=[0, 1], pathSteps=[steps], **{**dict(idWeight=0.5), **path})
@@ -54,7 +58,8 @@ def borne():
     first, second = O.forces.f(contact.id1), O.forces.f(contact.id2)
     assert (first + second).norm() == 0
     assert second.dot(n) == pytest.approx(p.normal, rel=1e-12, abs=1e-9)
-    # what is left of the torques once that of the shear force is taken off both; torque and levers go from the lower id to the higher
+    # what is left of the torques once that of the shear force is taken off both; torque and levers go from the lower id
+    # to the higher
     sign = 1 if contact.id1 < contact.id2 else -1
     r1, r2 = contact.geom.refR1, contact.geom.refR2
     rolling = sign * (r1 * O.forces.t(contact.id2)[2] - r2 * O.forces.t(contact.id1)[2]) / (r1 + r2)
@@ -223,7 +228,9 @@ def test_all_pairs_that_are_driven_into_each_other_are_counted(capfd):
 
 @pytest.mark.parametrize("turns", [False, True])
 def test_a_shear_along_a_straight_line_parts_the_pair(turns):
-    """Its distance grows by s²/(2 ℓ), so that the bond bears tension in the end; not where the velocity turns with the normal."""
+    """Its distance grows by s²/(2 ℓ), so that the bond bears tension in the end; not where the velocity turns with the
+    normal.
+    """
     length = pair()
     for _ in range(60):
         normal = (O.bodies[1].state.pos - O.bodies[0].state.pos).normalized() if turns else (1, 0)

@@ -1,4 +1,6 @@
-"""Impacts that follow from impacts in the same step: chains against impacts in the order of time, gases and their balances, rest, limits."""
+"""Impacts that follow from impacts in the same step: chains against impacts in the order of time, gases and their
+balances, rest, limits.
+"""
 import math
 import random
 
@@ -16,8 +18,8 @@ pytestmark = pytest.mark.usefixtures("empty")
 
 
 def chain(count, gap, e, speed=10.0, diameter=1.0, density=1000.0, masses=None, way=None):
-    """A disk that comes with a speed, and others at rest behind it, with gaps in diameters; ids. ``way``: its distance from the first of them, in diameters;
-    ``masses``: factors of their densities."""
+    """A disk that comes with a speed, and others at rest behind it, with gaps in diameters; ids. ``way``: its distance
+    from the first of them, in diameters; ``masses``: factors of their densities."""
     ids, x = [], 0.0
     for k in range(count):
         stuff = NscdMat(density=density * (masses[k] if masses else 1), restitution=e, frictionAngle=0)
@@ -41,7 +43,9 @@ def masses_of(ids):
 
 
 class OrderOfTime:
-    """Disks in a row, one impact after the other, each at its time: places and velocities [m, m/s] after some time, with e."""
+    """Disks in a row, one impact after the other, each at its time: places and velocities [m, m/s] after some time,
+    with e.
+    """
 
     def __init__(self, x, v, m, e, diameter):
         self.x, self.v, self.m, self.e, self.d, self.impacts = np.array(x), np.array(v, float), m, e, diameter, 0
@@ -112,7 +116,9 @@ def test_chains_go_as_impacts_in_the_order_of_time(count, gap, e):
 
 @pytest.mark.parametrize("count", [3, 4, 10, 20])
 def test_a_cradle_without_gaps_parts_as_one_and_keeps_its_energy(count):
-    """Newton's law for all contacts at once: the first comes back, the others leave together with its speed of approach between."""
+    """Newton's law for all contacts at once: the first comes back, the others leave together with its speed of approach
+    between.
+    """
     ids = chain(count, 0.0, 1.0, way=0.0123)
     begin(gravity=(0, 0, 0), tolerance=1e-8)
     run(30)
@@ -314,7 +320,9 @@ def test_gaps_wider_than_the_solve_looks_at_are_known_to_impacts():
 
 
 def test_friction_and_spin_act_in_each_impact():
-    """A disk with spin glances off one that stands before a wall; each impact slides, with Coulomb's law for its own impulse."""
+    """A disk with spin glances off one that stands before a wall; each impact slides, with Coulomb's law for its own
+    impulse.
+    """
     mu, e = 0.1, 0.8
     stuff = material(mu, restitution=e)
     O.bodies.append(scene.segments([(2.002, -5), (2.002, 5)], stuff))
@@ -324,13 +332,15 @@ def test_friction_and_spin_act_in_each_impact():
     m, I = O.bodies[a].state.mass, O.bodies[a].state.inertia[2]
     before = totals([a, b])[0]
     run(1)
-    # pair, at 0.2 ms: P = (1 + e)/2 m v; the wall turns the second one at 0.42 ms; they meet again at 0.7 ms, later than this step
+    # pair, at 0.2 ms: P = (1 + e)/2 m v; the wall turns the second one at 0.42 ms; they meet again at 0.7 ms, later
+    # than this step
     p = (1 + e) / 2 * m * 10
     v2 = p / m
     q = (1 + e) * m * v2
     sa, sb = O.bodies[a].state, O.bodies[b].state
     assert sa.vel[0] == pytest.approx(10 - v2, rel=1e-10) and sb.vel[0] == pytest.approx(-e * v2, rel=1e-10)
-    # the surface of the first moves up at the contact and takes the second along; that turns against it, and the wall's friction then works on what it has
+    # the surface of the first moves up at the contact and takes the second along; that turns against it, and the wall's
+    # friction then works on what it has
     assert sa.vel[1] == pytest.approx(-mu * p / m, rel=1e-10) and sa.angVel[2] == pytest.approx(
         50 - 0.5 * mu * p / I, rel=1e-10
     )
@@ -362,7 +372,8 @@ def test_a_gas_under_gravity_keeps_its_balance():
     run(1)
     start = e.kineticEnergy + e.potentialEnergy
     run(2000)
-    # bodies move with the velocity of the step's end: ½ h m g times the change of speed since the beginning, stepping.rst
+    # bodies move with the velocity of the step's end: ½ h m g times the change of speed since the beginning,
+    # stepping.rst
     bound = 0.5 * O.dt * 9.81 * sum(O.bodies[k].state.mass for k in ids) * 6
     assert abs(e.energyError) < bound
     # where forces act impacts are the solve's, and what restitution could not give back is told
@@ -371,7 +382,9 @@ def test_a_gas_under_gravity_keeps_its_balance():
 
 
 def test_impacts_of_what_forces_hold_against_gravity_keep_their_balance():
-    """On an air table that leans, or in water of their own weight, disks are pushed by nothing: their impacts are followed, and displace them along gravity."""
+    """On an air table that leans, or in water of their own weight, disks are pushed by nothing: their impacts are
+    followed, and displace them along gravity.
+    """
     ids = gas(count=40, width=2.4)
     for k in ids:
         O.forces.setPermF(k, (0, 9.81 * O.bodies[k].state.mass, 0))
@@ -382,7 +395,8 @@ def test_impacts_of_what_forces_hold_against_gravity_keep_their_balance():
         followed += e.impactsFollowed
     assert followed > 100
     assert totals(ids)[0] == pytest.approx(energy, rel=1e-9)
-    # bodies rise with the velocity of a step's end, and forces work on the mean one: ½ h g times what the momentum has changed, stepping.rst
+    # bodies rise with the velocity of a step's end, and forces work on the mean one: ½ h g times what the momentum has
+    # changed, stepping.rst
     assert e.energyError == pytest.approx(0.5 * O.dt * 9.81 * (totals(ids)[2] - up), abs=1e-9 * energy)
 
 

@@ -18,7 +18,9 @@ STRONG = dict(mu=1.5, tensileStrength=1e3, residualTensileStrength=1e3)
 
 
 def block(law, swapped=False, both=False):
-    """A block that cannot turn on a base that cannot move, of two layers with the law between them; returns its State."""
+    """A block that cannot turn on a base that cannot move, of two layers with the law between them; returns its
+    State.
+    """
     base, rock = material(**STRONG, layer=0), material(**STRONG, layer=1)
     for one, other in ((base, rock), (rock, base)) if both else (((rock, base),) if swapped else ((base, rock),)):
         one.interfaceLayers, one.interfaceLaws = [other.layer], [law]
@@ -73,7 +75,9 @@ LAWS = {
 @pytest.mark.parametrize("swapped", [False, True])
 @pytest.mark.parametrize("name", LAWS)
 def test_a_block_slides_at_the_angle_of_its_interfaces_law(name, swapped):
-    """2 % below it stands, 2 % above it slides, in the angle's tangent; whichever of the two materials names the law."""
+    """2 % below it stands, 2 % above it slides, in the angle's tangent; whichever of the two materials names the
+    law.
+    """
     law, tangent = LAWS[name]
     for factor, moves in ((0.98, False), (1.02, True)):
         O.reset()
@@ -94,7 +98,8 @@ def test_a_weakening_interface_loses_its_strength_by_the_slip_of_disks():
     assert slid(state, 0.59) == pytest.approx(0, abs=1e-6) and contact.phys.currentFriction == pytest.approx(0.6)
     way = slid(state, 0.66, 0.6)  # a = g cos θ (0.66 - 0.6), so that D_c is passed after some 0.4 s
     assert way > 0.05 and contact.phys.currentFriction == pytest.approx(0.3)
-    # both bodies have slipped what one went, although each is told of it by the one contact; the last step's is told after it
+    # both bodies have slipped what one went, although each is told of it by the one contact; the last step's is told
+    # after it
     assert law.slippedCount() == 2 and law.weakenedCount() == 2 and law.meanSlip() == pytest.approx(way, rel=0.01)
     # and what holds it now is the rest: 2 % below it slows down, 2 % above it goes faster
     for factor, sign in ((0.98, -1), (1.02, 1)):
@@ -106,7 +111,9 @@ def test_a_weakening_interface_loses_its_strength_by_the_slip_of_disks():
 
 
 def test_a_contact_is_as_weak_as_its_weaker_disk():
-    """Two blocks on one base: the first one's way has weakened the base, and so the second's contact, which has not slipped."""
+    """Two blocks on one base: the first one's way has weakened the base, and so the second's contact, which has not
+    slipped.
+    """
     law = LAWS["weakening"][0]()
     first = block(law)
     second = scene.disk((3, BLOCK), BLOCK, O.bodies[1].material)
@@ -123,7 +130,9 @@ def test_a_contact_is_as_weak_as_its_weaker_disk():
 
 
 def test_a_disk_with_several_contacts_slips_once_in_a_step():
-    """A plank of three bonded disks that cannot turn: one that lies on two base disks slips as far as on one of them, not as on both."""
+    """A plank of three bonded disks that cannot turn: one that lies on two base disks slips as far as on one of them,
+    not as on both.
+    """
     # so that they touch
     law = SlipWeakeningMat(
         frictionAngle=math.atan(0.1),

@@ -225,7 +225,9 @@ def test_corners_of_single_walls_are_those_of_a_polyline(line, steps):
 
 @pytest.mark.parametrize("angle", [-60, -40, -5, 5, 40, 85])
 def test_a_one_sided_tip_is_touched_from_all_sides(angle):
-    """A corner that turns by more than 90°: from below the first wall only the later one is seen, and has the tip there."""
+    """A corner that turns by more than 90°: from below the first wall only the later one is seen, and has the tip
+    there.
+    """
     stuff = material(0.0)
     for line in ([(-3, 0), (0, 0)], [(0, 0), (-2, -1)]):
         O.bodies.append(scene.segments(line, stuff, sense=1))
@@ -239,7 +241,9 @@ def test_a_one_sided_tip_is_touched_from_all_sides(angle):
 
 
 def test_an_edge_is_a_corner_again_where_its_neighbour_has_gone():
-    """A gate in a floor opens: a disk at rest over it goes down between two edges, touching one or both, and never through them."""
+    """A gate in a floor opens: a disk at rest over it goes down between two edges, touching one or both, and never
+    through them.
+    """
     stuff = material(0.0)
     floor = O.bodies.append(scene.segments([(-3, 0), (-0.3, 0), (0.3, 0), (3, 0)], stuff, sense=1))
     i = O.bodies.append(scene.disk((0.05, RADIUS), RADIUS, stuff))
@@ -257,7 +261,9 @@ def test_an_edge_is_a_corner_again_where_its_neighbour_has_gone():
 
 
 def test_walls_that_move_apart_come_apart():
-    """Two halves of a floor; the right one slides away: the left one's end is a corner from then on, round which a disk falls."""
+    """Two halves of a floor; the right one slides away: the left one's end is a corner from then on, round which a disk
+    falls.
+    """
     stuff = material(0.0)
     for line in ([(-3, 0), (0, 0)], [(0, 0), (3, 0)]):
         O.bodies.append(scene.segments(line, stuff, sense=1))
@@ -314,7 +320,9 @@ def test_walls_that_cross_both_hold_and_go_on():
 
 @pytest.mark.parametrize("gap", [1e-3, 0.01])
 def test_ends_that_do_not_meet_are_two_corners(gap):
-    """Across a slit a disk sinks by less than gap²/8r, and a free end is a bump of a step's path: it is slower afterwards, as ever."""
+    """Across a slit a disk sinks by less than gap²/8r, and a free end is a bump of a step's path: it is slower
+    afterwards, as ever.
+    """
     stuff = material(0.0)
     for line in ([(-3, 0), (0, 0)], [(gap, 0), (3, 0)]):
         O.bodies.append(scene.segments(line, stuff))
@@ -340,7 +348,9 @@ def test_walls_of_other_masks_are_not_joined():
 
 @pytest.mark.parametrize("closed", [False, True])
 def test_pieces_of_a_polyline_know_who_comes_next(closed):
-    """Before any step, round a pentagon: each turns by 72° into the next one, the last into the first where it is closed."""
+    """Before any step, round a pentagon: each turns by 72° into the next one, the last into the first where it is
+    closed.
+    """
     corners = [(math.cos(a), math.sin(a)) for a in np.arange(5 + (not closed)) * math.radians(72)]
     pieces = [b.shape for b in scene.segments(corners, material(0.0), closed=closed)]
     assert len(pieces) == 5
@@ -352,7 +362,9 @@ def test_pieces_of_a_polyline_know_who_comes_next(closed):
 
 @pytest.mark.parametrize("single", [False, True])
 def test_who_has_a_corner(single):
-    """The wedge outside a corner is that of the piece before it, round the whole of a closed wall; of walls made one by one it is that of the lower id."""
+    """The wedge outside a corner is that of the piece before it, round the whole of a closed wall; of walls made one by
+    one it is that of the lower id.
+    """
     stuff = material(0.0)
     square = [(0, 0), (0, 2), (2, 2), (2, 0)]  # clockwise, so that the left of its way is outside
     if single:

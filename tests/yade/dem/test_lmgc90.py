@@ -1,4 +1,6 @@
-"""The packing at rest by LMGC90 in YADE, by the checks of the verification report in their quick form, and the engine's stopping tests."""
+"""The packing at rest by LMGC90 in YADE, by the checks of the verification report in their quick form, and the engine's
+stopping tests.
+"""
 
 import math
 

@@ -132,7 +132,8 @@ def test_other_features_and_missing_engines_are_refused(script, tmp_path):
         assert result.returncode == 0 and expected in result.stdout, result.stdout + result.stderr
 
 
-# What the layout check looks at for each of YADE's headers that the engines include: names as in check("NAME", …), make<…>("NAME") or misplaced("NAME…").
+# What the layout check looks at for each of YADE's headers that the engines include: names as in check("NAME", …),
+# make<…>("NAME") or misplaced("NAME…").
 LOOKED_AT = {
     "core/Aabb": ["Aabb"],
     "core/Body": ["Body"],
@@ -399,7 +400,9 @@ def test_commands_answer_before_they_set_anything_up(command, status, message, t
     "packages, folders", [(("PROJECT",), ("py", "scripts")), (("PROJECT", "TESTS"), ("tests", "doc", "cmake"))]
 )
 def test_every_imported_module_comes_from_a_package_that_is_installed(packages, folders):
-    """What a fresh machine lacks, this one may have by chance: every import must be listed in packages.sh, where what it is for is."""
+    """What a fresh machine lacks, this one may have by chance: every import must be listed in packages.sh, where what
+    it is for is.
+    """
     listed = run(
         [
             "bash",

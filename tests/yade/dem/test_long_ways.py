@@ -1,4 +1,6 @@
-"""Steps in which a disk goes farther than its radius: they are told of, and what goes through a wall or another disk that it never touched is refused before it is through."""
+"""Steps in which a disk goes farther than its radius: they are told of, and what goes through a wall or another disk
+that it never touched is refused before it is through.
+"""
 import math
 
 import pytest

@@ -1,4 +1,6 @@
-"""Every refusal and every limit of an engine's settings, from both sides: what just goes, and what does not, in words that name it."""
+"""Every refusal and every limit of an engine's settings, from both sides: what just goes, and what does not, in words
+that name it.
+"""
 import math
 
 import pytest
@@ -131,8 +133,8 @@ WEAK = [
 
 
 def spoil(stuff, name, value, words=""):
-    """Sets an attribute to a value without sense. It is refused there, since scenes with soft contacts could not do so later, and has the value all the same. Those of
-    YADE's own classes leave no mark."""
+    """Sets an attribute to a value without sense. It is refused there, since scenes with soft contacts could not do so
+    later, and has the value all the same. Those of YADE's own classes leave no mark."""
     if name in ("frictionAngle", "density"):
         return setattr(stuff, name, value)
     with pytest.raises(ValueError) as error:
@@ -506,7 +508,9 @@ def test_forces_that_nobody_resets_are_told_of_by_the_integrator(capfd):
 
 
 def test_a_lasting_miss_is_told_after_ten_steps_and_a_heavy_one_at_once(capfd):
-    """A step matters that misses ten tolerances, with forces of more than that share of a body's weight: told at the tenth in a row, and where it is more than the whole."""
+    """A step matters that misses ten tolerances, with forces of more than that share of a body's weight: told at the
+    tenth in a row, and where it is more than the whole.
+    """
     stuff, tolerance = material(0.3), 1e-6
     O.bodies.append(scene.segments([(-5, 0), (5, 0)], stuff))
     disks = [free_disk(0, 0.5 + k, stuff=stuff) for k in range(12)]

@@ -1,4 +1,6 @@
-"""Numbers that users can set and that nothing could be computed with: refused in the step, by name, or the first time that they matter."""
+"""Numbers that users can set and that nothing could be computed with: refused in the step, by name, or the first time
+that they matter.
+"""
 
 import math
 

@@ -1,5 +1,6 @@
-"""State that outlives what it belongs to: bodies that are gone, ids that are used again, materials that were exchanged, steps that were refused, files that were
-loaded in between. tests/README.md has the table of all members that live from step to step."""
+"""State that outlives what it belongs to: bodies that are gone, ids that are used again, materials that were exchanged,
+steps that were refused, files that were loaded in between. tests/README.md has the table of all members that live from
+step to step."""
 import contextlib
 import gc
 import math
@@ -135,7 +136,9 @@ def saved_number(path, name):
 
 
 def test_a_contact_that_is_written_to_beside_a_run_keeps_what_its_bond_has_yielded(tmp_path):
-    """A bond is drawn out step by step; a script writes into its physics, and what it has yielded since the last look is not lost."""
+    """A bond is drawn out step by step; a script writes into its physics, and what it has yielded since the last look
+    is not lost.
+    """
     stuff = material(
         0.4, tensileStrength=10.0, bondCreationDistance=0.1, bondEllipseNormal=0.5, bondEllipseTangential=0.5
     )
@@ -300,7 +303,9 @@ def test_what_was_shown_alone_is_forgotten_once_all_is_shown():
 
 
 def test_a_contact_of_bodies_that_came_after_the_collider_ran(monkeypatch):
-    """A runner between collider and loop adds two disks and their interaction: it stays within the law's reach, as with YADE's collider."""
+    """A runner between collider and loop adds two disks and their interaction: it stays within the law's reach, as with
+    YADE's collider.
+    """
     stuff = material()
     free_disk(stuff=stuff)
     begin(gravity=(0, 0, 0), reach=0.05, far=0.6)
@@ -443,7 +448,9 @@ def test_water_forgets_who_was_gone_when_the_scene_was_saved(tmp_path):
 
 
 def test_a_look_between_loop_and_solver_changes_nothing():
-    """What the loop has found of bonds that slide and turn is still known to the solver when all was read again in between."""
+    """What the loop has found of bonds that slide and turn is still known to the solver when all was read again in
+    between.
+    """
 
     def course(command):
         O.reset()
@@ -694,7 +701,9 @@ def test_slip_along_an_interface_counts_though_steps_have_the_same_number():
 
 
 def test_joints_of_walls_are_looked_up_in_each_step_though_it_has_the_same_number():
-    """Behind YADE's own loop. A disk rolls over the joint of two walls, one of which comes to its place within the run: there is no bump."""
+    """Behind YADE's own loop. A disk rolls over the joint of two walls, one of which comes to its place within the run:
+    there is no bump.
+    """
 
     def course(reset):
         O.reset()
@@ -721,7 +730,9 @@ def test_joints_of_walls_are_looked_up_in_each_step_though_it_has_the_same_numbe
 
 @pytest.mark.parametrize("view", [True, False])
 def test_what_is_mended_after_a_refusal_counts(view):
-    """The solver refuses its settings before it looks at bodies, which collider and loop have left in the arrays: they are shown, and taken again."""
+    """The solver refuses its settings before it looks at bodies, which collider and loop have left in the arrays: they
+    are shown, and taken again.
+    """
     disk = free_disk(0, 5)
     begin(gravity=(0, 0, 0))
     engine().advance(2, view=view)
@@ -793,7 +804,9 @@ def test_the_sums_of_a_wall_after_a_force_was_added_behind_the_integrator(monkey
 
 @pytest.mark.parametrize("what", ["shape", "functors", "material", "physics", "engines", "all"])
 def test_what_python_has_made_may_end_in_an_advance(what):
-    """Nobody but the engines holds it any more when contacts and walls let it go, in steps that are made without Python's lock."""
+    """Nobody but the engines holds it any more when contacts and walls let it go, in steps that are made without
+    Python's lock.
+    """
     stuff = material(0.3)
     wall = floor(SlipWeakeningMat(density=2500, criticalSlip=1.0))
     ids = [free_disk(1.2 * k, 0.5, stuff=stuff) for k in range(8)]
@@ -885,7 +898,9 @@ def test_a_step_that_is_made_again_has_the_same_length(where, saved, monkeypatch
 
 
 def test_a_wall_that_is_moved_by_its_place_does_not_count_a_refused_step():
-    """It is moved by 1 mm in every tenth step up to the fortieth; steps in between are refused and made again. The disk that it drags cannot tell."""
+    """It is moved by 1 mm in every tenth step up to the fortieth; steps in between are refused and made again. The disk
+    that it drags cannot tell.
+    """
 
     def course(refused):
         O.reset()

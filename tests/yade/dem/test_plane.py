@@ -1,4 +1,6 @@
-"""Forces, torques and gravity out of the x-y plane: refused before the step, with one message that names whose they are, the value and what would do."""
+"""Forces, torques and gravity out of the x-y plane: refused before the step, with one message that names whose they
+are, the value and what would do.
+"""
 import math
 
 import pytest
@@ -139,7 +141,9 @@ def test_a_strainer_finds_the_strength():
 @pytest.mark.parametrize("kind", [ForceRecorder, TorqueRecorder])
 @pytest.mark.parametrize("place", [0, 1, 2, 3, 5])
 def test_a_recorder_that_stands_before_the_solver_is_named(place, kind, tmp_path):
-    """YADE's own message is about threads. At the head of the list it reads forces of the step before, from the second step on."""
+    """YADE's own message is about threads. At the head of the list it reads forces of the step before, from the second
+    step on.
+    """
     disk = lies()
     run(1 if place == 0 else 0)
     others = list(O.engines)

@@ -113,7 +113,9 @@ def test_a_floor_bears_the_stress_on_the_width_between_the_walls(angle):
 
 
 def test_two_plates_press_a_cloud_from_two_sides():
-    """The servo of a biaxial test: each plate's load follows what the other leaves of its width; a cloud of YADE's comes to rest under both stresses, and takes half as much again on one side."""
+    """The servo of a biaxial test: each plate's load follows what the other leaves of its width; a cloud of YADE's
+    comes to rest under both stresses, and takes half as much again on one side.
+    """
     solver = begin(gravity=(0, 0, 0), dt=1e-3, tolerance=1e-6, maxIterations=1000)
     rough, smooth = material(0.5), material(0.0, wall=True)
     bottom, left = (

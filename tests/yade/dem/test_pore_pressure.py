@@ -26,7 +26,9 @@ def water(heights=(10,), times=(0,), normal=NORMAL, **more):
 
 
 def disks_above_plane(places, radius=0.5, gravity=(0, -G, 0), apart=3.0, **more):
-    """Disks whose centres stand at these heights above the dipping plane through the origin, far from each other, and water."""
+    """Disks whose centres stand at these heights above the dipping plane through the origin, far from each other, and
+    water.
+    """
     stuff = material(0.3)
     ids = [
         O.bodies.append(scene.disk(tuple(h * NORMAL - apart * k * DOWN)[:2], radius, stuff))
@@ -180,7 +182,9 @@ def test_release_is_for_good_after_the_distance_downslope():
 
 
 def test_released_are_those_alone_that_were_wet():
-    """Two disks go down the slope, one below and one above the table. The dry one stays dry, also where the table passes it later."""
+    """Two disks go down the slope, one below and one above the table. The dry one stays dry, also where the table
+    passes it later.
+    """
     below, above, still = disks_above_plane([5, 15, 5], releaseDistance=0.5, heights=(10, 10, 30), times=(0, 1, 2))
     w = O.engines[3]
     w.unitWeight = 1e-9  # a force too small to matter
@@ -201,7 +205,9 @@ def test_released_are_those_alone_that_were_wet():
 
 
 def test_what_was_wet_is_forgotten_with_the_ways():
-    """A disk that was wet, and is dry when ways are counted anew, counts as one that never was: going down the slope it is not released."""
+    """A disk that was wet, and is dry when ways are counted anew, counts as one that never was: going down the slope it
+    is not released.
+    """
     (disk,) = disks_above_plane([5], releaseDistance=0.5, heights=(10, 10, 0, 0), times=(0, 0.05, 0.06, 1))
     w = O.engines[3]
     w.unitWeight = 1e-9  # a force too small to matter

@@ -1,4 +1,6 @@
-"""Errors of position are taken back by displacements: overlaps go, bonds find their length, and no velocity is left behind."""
+"""Errors of position are taken back by displacements: overlaps go, bonds find their length, and no velocity is left
+behind.
+"""
 import math
 
 import pytest
@@ -82,8 +84,8 @@ def test_a_bond_finds_its_length_from_both_sides(moved, slack):
 
 @pytest.mark.parametrize("slack", [SLIGHT, 0.0])
 def test_what_a_bond_opens_by_is_not_taken_back(slack):
-    """Drawn by 1.2 F_a for five steps a bond opens as a mass under 0.2 F_a does, then is slowed down by F_a until it stands, and keeps that length: though all of an error is taken back in a
-    step, as fast as it asks."""
+    """Drawn by 1.2 F_a for five steps a bond opens as a mass under 0.2 F_a does, then is slowed down by F_a until it
+    stands, and keeps that length: though all of an error is taken back in a step, as fast as it asks."""
     strength, h = 1e5, 2e-3
     stuff = material(0.3, 0.1, tensileStrength=strength, bondEllipseNormal=0.1, bondEllipseTangential=0.1)
     O.bodies.append(scene.disk((0, 0), 0.5, stuff, fixed=True))
@@ -168,7 +170,9 @@ def test_what_lifts_a_pile_is_counted_body_by_body():
 
 
 def test_a_plank_on_a_hinge_turns_as_far_as_its_lever_asks():
-    """κ of the overlap in one step, shared by inverse masses: Q = κ o/(1/m + a²/I), the disk moves by Q/m and the plank turns by −a Q/I."""
+    """κ of the overlap in one step, shared by inverse masses: Q = κ o/(1/m + a²/I), the disk moves by Q/m and the plank
+    turns by −a Q/I.
+    """
     plank = O.bodies[O.bodies.append(scene.segments([(-3, 0), (3, 0)], material(0.0)))[0]].state
     plank.mass, plank.inertia, plank.blockedDOFs = 500.0, (1, 1, 900.0), "xyzXY"
     s, arm, overlap = O.bodies[free_disk(2.0, 0.49, mu=0.0)].state, 2.0, 0.01 - SLIGHT
@@ -203,7 +207,9 @@ def test_a_bond_that_is_made_in_an_overlap_has_no_length():
 
 
 def test_forces_of_other_engines_do_no_work_on_displacements():
-    """What lifts a disk is counted against its weight, whatever else holds or presses it: such a force has no potential, and its work is that on the path of the velocities."""
+    """What lifts a disk is counted against its weight, whatever else holds or presses it: such a force has no
+    potential, and its work is that on the path of the velocities.
+    """
     stuff = material(0.3)
     floor(stuff)
     s = O.bodies[free_disk(0, 0.48, stuff=stuff)].state
@@ -221,7 +227,9 @@ def test_forces_of_other_engines_do_no_work_on_displacements():
 
 @pytest.mark.parametrize("gravity", [(0, 0, 0), (3, -9.81, 0)])
 def test_drawing_apart_in_free_flight_gives_nothing(gravity):
-    """Action and reaction: the centre of the two stays on its path, so their weight does no work on the displacements."""
+    """Action and reaction: the centre of the two stays on its path, so their weight does no work on the
+    displacements.
+    """
     stuff = material(0.3)
     ids = [O.bodies.append(scene.disk(at, r, stuff)) for at, r in (((0, 0), 0.5), ((0.6, 0.8), 0.7))]
     for k in ids:
@@ -235,7 +243,9 @@ def test_drawing_apart_in_free_flight_gives_nothing(gravity):
 
 @pytest.mark.parametrize("apart, bonded", [(0.98, False), (0.98, True), (1.03, True)])
 def test_bodies_that_pass_each_other_get_what_keeps_their_angular_momentum(apart, bonded):
-    """Two disks at the distance d pass each other at the speed u. A step displaces them to d', and L = ½ m d u stays: u' = u (1 − (d' − d)/d'), ΔK = ¼ m (u'² − u²)."""
+    """Two disks at the distance d pass each other at the speed u. A step displaces them to d', and L = ½ m d u stays:
+    u' = u (1 − (d' − d)/d'), ΔK = ¼ m (u'² − u²).
+    """
     stuff = material(0.0, tensileStrength=1e9, bondEllipseNormal=0.2, bondEllipseTangential=1.0)
     a, b = (O.bodies[free_disk(x, 0, stuff=stuff)].state for x in (0, 1))
     e = begin(gravity=(0, 0, 0), relaxationRate=0.5, correctionSpeed=1e3)

@@ -1,4 +1,6 @@
-"""What reactions are to bodies and to whoever reads them: directions, torques on walls, places of impacts, restitution under gravity, residual adhesion."""
+"""What reactions are to bodies and to whoever reads them: directions, torques on walls, places of impacts, restitution
+under gravity, residual adhesion.
+"""
 import math
 
 import pytest
@@ -16,7 +18,9 @@ pytestmark = pytest.mark.usefixtures("empty")
 
 
 def held_by(kind, free_first, angle=2.4):
-    """A disk that rests on a disk, or on a wall, in the direction ``angle`` from it; ids of what holds it and of the disk."""
+    """A disk that rests on a disk, or on a wall, in the direction ``angle`` from it; ids of what holds it and of the
+    disk.
+    """
     stuff = material(0.6, 0.1)
     n, t = Vector3(math.cos(angle), math.sin(angle), 0), Vector3(-math.sin(angle), math.cos(angle), 0)
 
@@ -107,8 +111,8 @@ def test_a_plank_on_a_hinge_turns_under_a_disk():
 
 @pytest.mark.parametrize("most", [1000, 0])
 def test_contacts_give_no_moment_in_all(most):
-    """Two free disks of different sizes that meet off centre, with friction: about any point the one loses what the other gets, be it an impact that is followed
-    or one of the solve (``most``: maxImpacts)."""
+    """Two free disks of different sizes that meet off centre, with friction: about any point the one loses what the
+    other gets, be it an impact that is followed or one of the solve (``most``: maxImpacts)."""
     stuff = material(0.5, 0.05, restitution=0.3)
     pair = [O.bodies.append(scene.disk((x, y), r, stuff)) for x, y, r in ((3.0, 1.0, 0.4), (3.9, 1.6, 0.7))]
     O.bodies[pair[0]].state.vel, O.bodies[pair[0]].state.angVel = (3, 1.0, 0), (0, 0, -4)
@@ -144,7 +148,9 @@ def test_a_wheel_drives_another_by_the_ratio_of_their_radii(driver_first):
 
 
 def bounces(e, mass, y, v, h, steps):
-    """Height, speed and lost energy of a disk of 1 m that falls on a floor, step by step, by the rules of doc/theory/stepping.rst."""
+    """Height, speed and lost energy of a disk of 1 m that falls on a floor, step by step, by the rules of
+    doc/theory/stepping.rst.
+    """
     lost = 0.0
     for _ in range(steps):
         gap, free = y - 0.5, v - G * h
@@ -223,7 +229,9 @@ def test_the_larger_of_two_coefficients_of_restitution_holds(of_floor, of_disk):
 @pytest.mark.parametrize("share", [-3.0, 0.0, 0.9, 1.1])
 @pytest.mark.parametrize("other", ["disk", "wall"])
 def test_residual_adhesion_acts_while_bodies_touch(other, gap, adhesive, share):
-    """A pull of ``share`` times the adhesion, at a gap within adhesionRange = 1e-3 ℓ or beyond it, which is known up to the reach of 0.05 ℓ."""
+    """A pull of ``share`` times the adhesion, at a gap within adhesionRange = 1e-3 ℓ or beyond it, which is known up to
+    the reach of 0.05 ℓ.
+    """
     strength, h = 2e4, 1e-3
     length, at = (0.7, 0.7) if other == "disk" else (0.9, 0.45)
     stuff = material(0.3, residualTensileStrength=strength / length)
@@ -238,7 +246,8 @@ def test_residual_adhesion_acts_while_bodies_touch(other, gap, adhesive, share):
     begin(gravity=(0, 0, 0), dt=h, relaxationRate=0)
     speed, range_of = 0.0, 1e-3 * length
     assert (gap <= range_of) == adhesive
-    # of new contacts the loop itself knows the thresholds; those of the steps after are an Interaction's, which a script has seen
+    # of new contacts the loop itself knows the thresholds; those of the steps after are an Interaction's, which a
+    # script has seen
     for _ in range(4):
         run(1)
         (i,) = contacts()

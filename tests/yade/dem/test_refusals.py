@@ -1,4 +1,6 @@
-"""Scenes that would run and be wrong in silence, or crash: each is refused or handled, with one message that names what, the value and what would do."""
+"""Scenes that would run and be wrong in silence, or crash: each is refused or handled, with one message that names
+what, the value and what would do.
+"""
 import math
 
 import pytest
@@ -205,7 +207,8 @@ def late_push(disk):
     "push", [late_push, lambda disk: O.forces.addF(disk, (0, 2 * G * O.bodies[disk].state.mass, 0))]
 )
 def test_a_force_added_after_a_step_is_answered_in_the_next(push):
-    # twice its weight lifts a disk: with a reaction that knew nothing of it, as it was, it would rise by 2 g h instead of g h
+    # twice its weight lifts a disk: with a reaction that knew nothing of it, as it was, it would rise by 2 g h instead
+    # of g h
     disk = rests_on_a_floor()
     run(2)
     push(disk)

@@ -1,4 +1,6 @@
-"""Siconos solves the same contact problems (tests/oracle); skipped where it is not installed, see oracles.py. tests/contact holds kept answers."""
+"""Siconos solves the same contact problems (tests/oracle); skipped where it is not installed, see oracles.py.
+tests/contact holds kept answers.
+"""
 
 import subprocess
 from dataclasses import replace
@@ -22,7 +24,9 @@ def program(request):
 
 
 def one_contact(adhesion=0.0):
-    """A body of mass and inertia 1 on the ground, pushed so that W = 1 and q = (−1, 0.5, 0.2); μ_s = 0.3, μ_r ℓ = 0.1 m."""
+    """A body of mass and inertia 1 on the ground, pushed so that W = 1 and q = (−1, 0.5, 0.2); μ_s = 0.3, μ_r ℓ = 0.1
+    m.
+    """
     three, free = np.zeros((1, 3)), np.array([[0.0, 0.0, 0.0], [-0.5, -1.0, 0.2]])
     return contact.ContactProblem(
         time_step=1.0,
@@ -93,7 +97,9 @@ def test_random_problems_agree(tmp_path, check):
 
 
 def kept_cluster(number):
-    """One of the twenty problems of tests/data/siconos_clusters.h5, with Siconos's answer in it; each ends with its floor."""
+    """One of the twenty problems of tests/data/siconos_clusters.h5, with Siconos's answer in it; each ends with its
+    floor.
+    """
     kept = contact.load(DATA / "siconos_clusters.h5")
     ends = np.concatenate([[0], np.flatnonzero(~kept.inverse_mass.any(axis=1)) + 1])
     bodies = slice(ends[number], ends[number + 1])

@@ -1,4 +1,6 @@
-"""Disks whose radius somebody changes: mass, inertia and contacts follow, whoever did it, and what does not follow is told of."""
+"""Disks whose radius somebody changes: mass, inertia and contacts follow, whoever did it, and what does not follow is
+told of.
+"""
 import math
 
 import pytest

@@ -1,4 +1,6 @@
-"""Sums that must come out exactly at every step or row of a slope: momentum, angular momentum, energy, bonds; with rigid disks and with springs."""
+"""Sums that must come out exactly at every step or row of a slope: momentum, angular momentum, energy, bonds; with
+rigid disks and with springs.
+"""
 import math
 from dataclasses import replace
 
@@ -32,7 +34,9 @@ def test_forces_of_walls_water_and_weight_are_the_change_of_momentum(whole):
 
 
 def test_rows_of_the_series_and_snapshots_balance_by_themselves(whole):
-    """Means of the forces on three straight walls, times the seconds of their rows, against the velocities of two snapshots."""
+    """Means of the forces on three straight walls, times the seconds of their rows, against the velocities of two
+    snapshots.
+    """
     series, shots = whole.series, [records.read_snapshot(p) for p in sorted((whole.folder / "snapshots").glob("*.npz"))]
     mass = 2500 * math.pi * shots[0].r ** 2
     weight, worst, largest = mass.sum() * 9.81, 0.0, 0.0
@@ -53,8 +57,8 @@ def test_rows_of_the_series_and_snapshots_balance_by_themselves(whole):
             push, drag = ((values[rows] * seconds).sum() for values in column.values())
             given -= push * np.array([along[1], -along[0]]) + drag * along
         gained = np.array([(mass * (getattr(other, v) - getattr(one, v))).sum() for v in ("vx", "vy")])
-        # the water's force is that of the row's last step: it may have changed by so much since the row before, and where it changes, a disk at the table may have
-        # been wet or dry in between
+        # the water's force is that of the row's last step: it may have changed by so much since the row before, and
+        # where it changes, a disk at the table may have been wet or dry in between
         changes = np.abs(np.diff(lift[[rows[0] - 1, *rows]]))
         allowed = 1e-9 * weight + ((changes + (changes > 0) * 9810 * mass.max() / 2500) * seconds).sum()
         worst, largest = max(worst, np.abs(gained - given).max() - allowed), max(largest, np.abs(gained).max())
@@ -63,7 +67,9 @@ def test_rows_of_the_series_and_snapshots_balance_by_themselves(whole):
 
 @pytest.fixture(scope="module")
 def steps(tmp_path_factory):
-    """The small slope with nothing taken back of errors of position, for some steps while it gets wet: a function that makes one and returns what it did."""
+    """The small slope with nothing taken back of errors of position, for some steps while it gets wet: a function that
+    makes one and returns what it did.
+    """
     chosen = section.load(str(SMALL))
     O.reset()
     world = hard(chosen)
@@ -128,7 +134,9 @@ GRAVITY = np.array([0, -9.81])
 
 
 def test_moments_about_a_point_are_the_change_of_angular_momentum(steps):
-    """About the origin and about a point far away; places are those at the begin of the step, where the contacts were looked at."""
+    """About the origin and about a point far away; places are those at the begin of the step, where the contacts were
+    looked at.
+    """
     found, mass, inertia, walls = steps
     h, turned = 5e-3, 0.0
     for about in (np.zeros(2), np.array([-500.0, 300.0])):
@@ -147,8 +155,8 @@ def test_moments_about_a_point_are_the_change_of_angular_momentum(steps):
 
 
 def test_losses_are_the_work_that_does_not_become_motion(steps):
-    """In each step, where no error of position is taken back: weight and water work by the mean velocity, and what is not kinetic energy then is a loss, or what tension
-    does in bonds that hold, as far as the solve is off."""
+    """In each step, where no error of position is taken back: weight and water work by the mean velocity, and what is
+    not kinetic energy then is a loss, or what tension does in bonds that hold, as far as the solve is off."""
     found, mass, inertia, _ = steps
     last, lost = np.zeros(7), 0.0
     for before, after, _, lift, counters, _ in found:
@@ -164,7 +172,9 @@ def test_losses_are_the_work_that_does_not_become_motion(steps):
 
 
 def test_each_loss_is_the_work_of_its_own_impulses(steps):
-    """Normal, tangential and rolling impulses of all contacts times the mean of the relative velocities before and after the step."""
+    """Normal, tangential and rolling impulses of all contacts times the mean of the relative velocities before and
+    after the step.
+    """
     last = np.zeros(7)
     for *_, counters, (losses, held, _) in steps[0]:
         wanted = np.array([*(losses[k] for k in (0, 1, 3, 2)), held])
@@ -179,8 +189,8 @@ def test_each_loss_is_the_work_of_its_own_impulses(steps):
 
 
 def bonds_add_up(series, breaks, made, begun):
-    """Bonds that hold and broken ones are the bonds made at every row, and the list of breaks has those of each mode; ``begun``: steps of a break's number that are
-    counted in a row of that number, 0 or 1."""
+    """Bonds that hold and broken ones are the bonds made at every row, and the list of breaks has those of each mode;
+    ``begun``: steps of a break's number that are counted in a row of that number, 0 or 1."""
     broken = {mode: series[f"bonds_broken_{mode}"] for mode in MODES}
     assert (series["bonds_alive"] + sum(broken.values()) == made).all()
     for mode, counts in broken.items():
@@ -196,7 +206,9 @@ def test_bonds_that_hold_and_broken_ones_are_those_made(whole):
 
 
 def test_breaks_are_where_and_when_bonds_were_lost(whole):
-    """From row to row exactly the pairs of the list lose their bond, in the steps between, at a place between their centres."""
+    """From row to row exactly the pairs of the list lose their bond, in the steps between, at a place between their
+    centres.
+    """
     watch, breaks = whole.watch, records.read_breaks(whole.folder / "breaks.csv")
     bonded = [{(int(a), int(b)) for a, b, *_, held in rows[:, :9] if held} for rows in watch.rows]
     for k, (before, after) in enumerate(zip(bonded, bonded[1:])):
@@ -237,7 +249,9 @@ def test_soft_bonds_that_hold_and_broken_ones_are_those_made(soft_run):
 
 @pytest.mark.parametrize("damping", [0.0, 0.2])
 def test_soft_forces_cancel_and_move_the_disks(damping):
-    """Forces on disks and walls add up to the water's, moments too; each disk's change of momentum is its force, damped as YADE does it, weight included."""
+    """Forces on disks and walls add up to the water's, moments too; each disk's change of momentum is its force, damped
+    as YADE does it, weight included.
+    """
     chosen = section.load(str(SMALL))
     O.reset()
     built = slope.build(chosen, slope_packing.of(chosen), worlds.Soft(**SOFT, damping=damping))

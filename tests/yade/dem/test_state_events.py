@@ -1,7 +1,7 @@
 """Each engine lives through each event: what is kept in memory alone does not matter.
 
-After the event the scene is saved and loaded at once, so that all objects are new ones and know what a file knows, or it goes on as it is: both ways end in the
-same bits. doc/state.rst has the table of what lives from step to step.
+After the event the scene is saved and loaded at once, so that all objects are new ones and know what a file knows, or
+it goes on as it is: both ways end in the same bits. doc/state.rst has the table of what lives from step to step.
 """
 import math
 

@@ -23,9 +23,11 @@ ROUNDING, SOLVED = 1e-9, 1e-8  # as in test_symmetries_contacts.py
 
 
 def brittle():
-    """Three bonded chains of six disks that break as they fall on a floor and on each other, and three bonded pairs: pulled apart, sheared, twisted.
+    """Three bonded chains of six disks that break as they fall on a floor and on each other, and three bonded pairs:
+    pulled apart, sheared, twisted.
 
-    Chains, and no blocks, since only their reactions are unique: what a solver finds in a block depends on where it begins.
+    Chains, and no blocks, since only their reactions are unique: what a solver finds in a block depends on where it
+    begins.
     """
     chains = [
         Disk(x + k * np.cos(turn), y + k * np.sin(turn), 0.5, speed, spin)

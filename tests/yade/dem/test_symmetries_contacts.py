@@ -8,7 +8,8 @@ from yade import O, utils
 from contact_scenes import contacts
 from symmetries import BINARY, FRAMES, Disk, Frame, Line, World, assert_bits, assert_same, play, shuffled
 
-# rounding of up to 300 steps, which impacts make grow (1e-12 to 4e-10 were seen); the solver's tolerance of 1e-12, likewise, where the order of contacts is another
+# rounding of up to 300 steps, which impacts make grow (1e-12 to 4e-10 were seen); the solver's tolerance of 1e-12,
+# likewise, where the order of contacts is another
 ROUNDING, SOLVED = 1e-9, 1e-8
 
 
@@ -40,7 +41,9 @@ def heap(seed=4):
 
 
 def pressed(seed=6):
-    """24 disks that overlap by some per cent at the beginning: errors of position are taken back while the disks fall, turn, and meet the floor."""
+    """24 disks that overlap by some per cent at the beginning: errors of position are taken back while the disks fall,
+    turn, and meet the floor.
+    """
     dice = np.random.default_rng(seed)
     disks = tuple(
         Disk(
@@ -97,7 +100,8 @@ def test_powers_of_two_as_units_change_no_bit(known):
 def test_far_from_the_origin_only_the_last_bits_of_places_are_lost(known):
     world, here = known
     far = 2.0**20
-    # 2^-33 m between two numbers there: so much is a gap wrong, which a step makes a speed of 2^-33 m/dt; impacts make it grow by some hundred times, and more
+    # 2^-33 m between two numbers there: so much is a gap wrong, which a step makes a speed of 2^-33 m/dt; impacts make
+    # it grow by some hundred times, and more
     lost = 2.0**-33 / here.step / here.speed
     assert_same(play(world, Frame(shift=(far, -far))), here, 1000 * lost, place=1000 * lost, wall_moment=1e6 * lost)
 
@@ -106,7 +110,9 @@ def test_far_from_the_origin_only_the_last_bits_of_places_are_lost(known):
 
 
 def uncorrected(world):
-    """Errors of position are not solved for to a tolerance: what ten sweeps leave of them knows the order. So they stay here."""
+    """Errors of position are not solved for to a tolerance: what ten sweeps leave of them knows the order. So they stay
+    here.
+    """
     return replace(world, options={**world.options, "relaxationRate": 0})
 
 

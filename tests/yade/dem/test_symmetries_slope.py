@@ -12,7 +12,8 @@ ALONG, NORMAL = np.array([np.cos(DIP), -np.sin(DIP)]), np.array([np.sin(DIP), np
 
 
 def slope(law="step"):
-    """Eight bonded columns of three disks on a dipping wall that loses its strength after 5 cm; water rises among them, and lets go what has moved by 12 cm.
+    """Eight bonded columns of three disks on a dipping wall that loses its strength after 5 cm; water rises among them,
+    and lets go what has moved by 12 cm.
 
     Columns, and no block, for the reason that test_symmetries_bonds.py gives."""
     disks = tuple(

@@ -1,4 +1,6 @@
-"""NonsmoothTimeStepper: the step follows from speeds and bonds, is the same after loading, and does not change the physics."""
+"""NonsmoothTimeStepper: the step follows from speeds and bonds, is the same after loading, and does not change the
+physics.
+"""
 import math
 
 import pytest
@@ -45,7 +47,9 @@ def test_grows_to_the_largest_where_nothing_moves():
 
 
 def test_a_step_that_an_exception_ended_does_not_grow_twice():
-    """After the solver has been through it, in the third step of a scene; the next one grows from it as from any other."""
+    """After the solver has been through it, in the third step of a scene; the next one grows from it as from any
+    other.
+    """
     O.bodies.append(scene.disk((0, 0), 1.0, material(0.3)))
     begin(gravity=(0, 0, 0), dt=1e-3)
     stepper(largest=1.0, growth=1.5)
@@ -163,7 +167,9 @@ def pile_that_is_struck(**limits):
 
 
 def strike():
-    """A step with a blow on the top of the pile, which has to get down; each is another one, or the last reactions would answer it."""
+    """A step with a blow on the top of the pile, which has to get down; each is another one, or the last reactions
+    would answer it.
+    """
     O.bodies[6].state.vel = (0.1, -1 - 0.1 * O.iter, 0)
     O.step()
 

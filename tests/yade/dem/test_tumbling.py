@@ -1,4 +1,6 @@
-"""Bonded bodies that spin and tumble: rigid motion exactly, the centrifugal force in the bonds, what bonds have slipped without having yielded taken back."""
+"""Bonded bodies that spin and tumble: rigid motion exactly, the centrifugal force in the bonds, what bonds have slipped
+without having yielded taken back.
+"""
 import math
 
 import numpy as np
@@ -21,7 +23,9 @@ def rock(strength=STRONG, **more):
 
 
 def lattice(rings):
-    """Places of a hexagonal boulder of disks of 1 m around the origin: 7, 19, 37 ... for 1, 2, 3 ... rings; for none a pair."""
+    """Places of a hexagonal boulder of disks of 1 m around the origin: 7, 19, 37 ... for 1, 2, 3 ... rings; for none a
+    pair.
+    """
     if rings == 0:
         return [(-0.5, 0.0), (0.5, 0.0)]
     side = range(-rings, rings + 1)
@@ -129,7 +133,8 @@ def test_a_bond_breaks_when_the_centrifugal_force_is_more_than_it_bears(share, b
     assert after == pytest.approx(angular, rel=1e-9)
     assert abs(engine().energyError) < 1e-9 * energy
     if breaks:
-        # it yields along its ellipse of a thousandth and lets go: both fly on, with what their orbit had less the way's work
+        # it yields along its ellipse of a thousandth and lets go: both fly on, with what their orbit had less the way's
+        # work
         assert kept == pytest.approx(energy, rel=2e-3) and kept < energy
         assert engine().debondingLoss == pytest.approx(share * mass * 0.5 * omega**2 * 1e-3, rel=0.5)
         speeds = [O.bodies[i].state.vel for i in ids]
@@ -213,7 +218,9 @@ def test_a_boulder_tumbles_down_a_slope_in_one_piece(rings, dt, options):
 
 @pytest.mark.parametrize("slip, turn", [(0.005, 0.0), (-0.004, 0.0), (0.0, 0.006), (0.003, -0.004)])
 def test_what_a_bond_has_slipped_without_yielding_is_taken_back(slip, turn):
-    """A script turns one disk of a bonded pair that goes round by what makes it slip, or rolls it: the share κ goes in each step, the slack stays."""
+    """A script turns one disk of a bonded pair that goes round by what makes it slip, or rolls it: the share κ goes in
+    each step, the slack stays.
+    """
     omega = 0.1  # 5e-4 rad a step
     ids = tumbling(lattice(0), omega, 5e-3)
     run(1)
@@ -242,7 +249,9 @@ def test_what_a_bond_has_slipped_without_yielding_is_taken_back(slip, turn):
 
 @pytest.mark.parametrize("h", [5e-4, 2e-3])
 def test_the_balance_of_a_pendulum_on_a_pin_stays_closed(h):
-    """A disk that is bonded to a pin swings through 2 rad to either side: neither what is listed as error nor as correction grows."""
+    """A disk that is bonded to a pin swings through 2 rad to either side: neither what is listed as error nor as
+    correction grows.
+    """
     stuff = rock()
     pin = O.bodies.append(scene.disk((0, 0), 1.0, stuff))
     bob = O.bodies.append(scene.disk((2 * math.sin(2.0), -2 * math.cos(2.0)), 1.0, stuff))
@@ -279,7 +288,9 @@ def test_what_a_bond_has_yielded_in_shear_it_keeps():
 
 
 def test_what_a_bond_has_yielded_in_shear_while_it_turns_it_keeps():
-    """A disk that hangs on a rotor is pushed along its path until it has slipped; then it goes round with the rotor where it is."""
+    """A disk that hangs on a rotor is pushed along its path until it has slipped; then it goes round with the rotor
+    where it is.
+    """
     strength, omega, h = 1e5, 2.0, 5e-3
     rotor, disk = tumbling(lattice(0), 0, h, rock(strength, bondEllipseTangential=0.5))
     hub, s = O.bodies[rotor].state, O.bodies[disk].state

@@ -1,4 +1,6 @@
-"""Light bodies among heavy ones in a running scene: what is called solved bears each of them, and what is not is told with names."""
+"""Light bodies among heavy ones in a running scene: what is called solved bears each of them, and what is not is told
+with names.
+"""
 import math
 import re
 

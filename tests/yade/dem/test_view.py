@@ -1,4 +1,6 @@
-"""O.bodies, O.interactions and O.forces are true whenever somebody looks, and what was changed through them is taken up, whether steps stay in arrays or not."""
+"""O.bodies, O.interactions and O.forces are true whenever somebody looks, and what was changed through them is taken
+up, whether steps stay in arrays or not.
+"""
 import functools
 import threading
 import time
@@ -37,7 +39,9 @@ def plain(value):
 
 
 def everything():
-    """Every attribute of bodies, interactions and forces, in the order in which YADE lists them; and the counters and sums of the solver."""
+    """Every attribute of bodies, interactions and forces, in the order in which YADE lists them; and the counters and
+    sums of the solver.
+    """
     bodies = [(b.id, plain(b.state)) for b in O.bodies if b]
     links = [
         (i.id1, i.id2, i.isReal, i.iterBorn, i.iterMadeReal, i.geom and plain(i.geom), i.phys and plain(i.phys))
@@ -53,7 +57,9 @@ def everything():
 
 
 def busy(steps_of_time=False):
-    """Bonded and loose disks fall on a wall that weakens, into water; a wall moves against them. Bonds break, contacts come and go."""
+    """Bonded and loose disks fall on a wall that weakens, into water; a wall moves against them. Bonds break, contacts
+    come and go.
+    """
     stuff = material(
         0.5,
         0.05,
@@ -121,7 +127,9 @@ def advance(way, steps):
 
 
 def most_views(begin):
-    """In a run that nobody watches: one each 0.05 s, for others who may look, and those at the ends of what this file runs."""
+    """In a run that nobody watches: one each 0.05 s, for others who may look, and those at the ends of what this file
+    runs.
+    """
     return 10 + (time.monotonic() - begin) / 0.05
 
 
@@ -166,7 +174,9 @@ def without_signs(row):
 
 
 def test_interactions_are_what_yades_own_loop_makes_of_them():
-    """With YADE's own loop and integrator geometry and thresholds are written by the functors themselves, in every step."""
+    """With YADE's own loop and integrator geometry and thresholds are written by the functors themselves, in every
+    step.
+    """
 
     def end(own):
         O.reset()
@@ -190,8 +200,9 @@ def test_interactions_are_what_yades_own_loop_makes_of_them():
 
 
 def found_by_boxes(rows):
-    """Without walls that a disk is yet to come near to. YADE's collider has boxes of disks, which reach half as far beyond the rim as two of them together, and
-    boxes of walls, which reach nowhere; so it finds such a wall some steps later than ours. Nothing acts over such gaps.
+    """Without walls that a disk is yet to come near to. YADE's collider has boxes of disks, which reach half as far
+    beyond the rim as two of them together, and boxes of walls, which reach nowhere; so it finds such a wall some steps
+    later than ours. Nothing acts over such gaps.
     """
     return [
         row
@@ -201,7 +212,9 @@ def found_by_boxes(rows):
 
 
 def test_two_thousand_steps_are_the_same_in_every_way_and_with_yades_own_engines():
-    """On the way disks are taken away and put in, a bonded contact is ended, a disk is thrown, and what touches is bonded anew."""
+    """On the way disks are taken away and put in, a bonded contact is ended, a disk is thrown, and what touches is
+    bonded anew.
+    """
 
     def end(way):
         O.reset()
@@ -511,9 +524,11 @@ def test_engines_that_look_now_and_then_see_the_truth(tmp_path):
 
 @pytest.mark.parametrize("shown", ["now and then", "in every step"])
 def test_what_is_saved_beside_a_run_in_the_background_is_of_one_moment(shown, tmp_path):
-    """Falling freely all disks have the same speed, that of the step that the file names or of the two after it, since its number is written first; each file can be gone on with.
+    """Falling freely all disks have the same speed, that of the step that the file names or of the two after it, since
+    its number is written first; each file can be gone on with.
 
-    Where a foreign engine has the bodies shown in every step, each step that went on meanwhile would be seen in the file.
+    Where a foreign engine has the bodies shown in every step, each step that went on meanwhile would be seen in the
+    file.
     """
     stuff = material(0.5)
     O.bodies.append([scene.disk((3 * (k % 60), 3 * (k // 60)), 0.5, stuff) for k in range(3000)])
@@ -545,7 +560,9 @@ def test_what_is_saved_beside_a_run_in_the_background_is_of_one_moment(shown, tm
 
 
 def test_contacts_that_come_and_go_are_saved_beside_a_run_in_the_background(tmp_path):
-    """Each bond that is saved is one of two disks that are there, and the scene goes on from each file as from itself."""
+    """Each bond that is saved is one of two disks that are there, and the scene goes on from each file as from
+    itself.
+    """
     busy()
     O.run()
     try:

@@ -1,4 +1,6 @@
-"""What scripts write into attributes of YADE's own classes of contacts: heard by the next step, or refused in words that name it."""
+"""What scripts write into attributes of YADE's own classes of contacts: heard by the next step, or refused in words
+that name it.
+"""
 import math
 
 import pytest

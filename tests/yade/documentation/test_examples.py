@@ -73,7 +73,8 @@ def parameters_of(name):
 def test_every_lesson_has_a_table_that_yade_reads_and_numerics_to_set(lesson):
     (shared, hard), (same, soft) = (parameters_of(f"{world}_{lesson}.py") for world in ("hard", "soft"))
     assert shared == same
-    # what doc/lessons.rst says tables may set; restitution has a meaning in both worlds of the column, whose springs are viscous
+    # what doc/lessons.rst says tables may set; restitution has a meaning in both worlds of the column, whose springs
+    # are viscous
     both = {"restitution"} if lesson == "column" else set()
     assert hard == {"dt", "tolerance"} | both and soft == {"dt", "young", "damping"} | both
     lines = utils.TableParamReader(os.path.join(EXAMPLES, f"{lesson}.table")).paramDict()
@@ -91,9 +92,12 @@ def launched(name, folder, line):
 
 @pytest.fixture
 def output(empty, monkeypatch, tmp_path, capfd):
-    """Runs an example in this process, among the names that YADE gives its scripts: ``output("hard_pile.py", seconds=2.5)`` is what it prints with these parameters, given as yade-batch gives them: a line of a table.
+    """Runs an example in this process, among the names that YADE gives its scripts:
+    ``output("hard_pile.py", seconds=2.5)`` is what it prints with these parameters, given as yade-batch gives them: a
+    line of a table.
 
-    A lesson warns of nothing, as far as tests run it: a student would look for his own mistake. ``quiet``: False where what is asked for has its price, which the engine tells.
+    A lesson warns of nothing, as far as tests run it: a student would look for his own mistake. ``quiet``: False where
+    what is asked for has its price, which the engine tells.
     """
 
     def call(name, quiet=True, **parameters):
@@ -142,8 +146,9 @@ def kept(lesson, case):
 
 
 def as_kept(lesson, case, text, **near):
-    """The numbers that a lesson has printed are those of the page, to the digits printed. ``near``: of heaps, whose grains go other ways where another machine rounds otherwise: how far off the
-    named numbers may be; those that are not named, and rows, are not compared then but for the count of steps."""
+    """The numbers that a lesson has printed are those of the page, to the digits printed. ``near``: of heaps, whose
+    grains go other ways where another machine rounds otherwise: how far off the named numbers may be; those that are
+    not named, and rows, are not compared then but for the count of steps."""
     told, found = kept(lesson, case), lessons.numbers(text)
     for name in {"steps", *near} if near else set(told) - {"kinetic_energy_j"}:
         one, other = (np.array(values[name], float) for values in (found, told))
@@ -293,8 +298,8 @@ def test_twins_make_the_same_pile(output):
         {key: number(text, key) for key in ("steps", "pile height [m]", "kinetic energy [J]", "lowest disk [m]")}
         for text in said.values()
     )
-    # Two random packings of 204 disks: between loose (0.80) and dense (0.84) lie 5 %, seeds differ by about 1 %, and the soft
-    # disks overlap by some 0.3 % of a diameter
+    # Two random packings of 204 disks: between loose (0.80) and dense (0.84) lie 5 %, seeds differ by about 1 %, and
+    # the soft disks overlap by some 0.3 % of a diameter
     assert hard["pile height [m]"] == pytest.approx(soft["pile height [m]"], rel=0.03)
     area = 204 * 3.1416 * (0.05**2 + 0.02**2 / 12)  # of radii between 0.04 and 0.06
     for pile in (soft, hard):
@@ -310,7 +315,8 @@ def test_hard_blocks_slide_as_coulomb_says_and_stand_below_the_friction_angle(ou
     blocks = rows(text, "friction/tan")
     assert [ratio for ratio, *_ in blocks] == [0, 0.5, 0.9, 0.99, 1.01, 1.1]
     for ratio, slid, speed, acceleration, coulomb in blocks:
-        # one step after another with the same force: exact, but for the solver's tolerance of 1e-6 of the weight and the digits printed
+        # one step after another with the same force: exact, but for the solver's tolerance of 1e-6 of the weight and
+        # the digits printed
         assert coulomb == pytest.approx(9.81 * math.sin(math.radians(25)) * max(0, 1 - ratio), abs=1e-4)
         assert acceleration == pytest.approx(coulomb, abs=2e-4)
         # x grows with the speed at the step's end: a/2 t (t + h) with h = 5 ms
@@ -322,8 +328,9 @@ def test_soft_blocks_slide_slower_by_the_damping(output):
     for case, text in zip(("soft", "soft_undamped"), said):
         as_kept("incline", case, text)
     damped, free = (rows(text, "friction/tan") for text in said)
-    # Without damping the contact swings for ever and the friction follows it, after a start without any: 1 % of g sin θ. With it a smooth
-    # block, whose contact swings too, loses λ of each component of the force and more: between 1 − λ and 1 − 2 λ of Coulomb's value.
+    # Without damping the contact swings for ever and the friction follows it, after a start without any: 1 % of g sin
+    # θ. With it a smooth block, whose contact swings too, loses λ of each component of the force and more: between 1 −
+    # λ and 1 − 2 λ of Coulomb's value.
     for ratio, _, _, acceleration, coulomb in free:
         assert acceleration == pytest.approx(coulomb, abs=0.01 * 9.81 * math.sin(math.radians(25)))
     assert 0.6 < damped[0][3] / damped[0][4] < 0.8
@@ -347,7 +354,8 @@ def test_hard_wedge_stands_still_for_a_minute_dry_and_in_changing_water(output):
 def test_hard_wedge_slides_where_statics_says(output):
     text = output("hard_wedge.py", friction=0.55, water=0, seconds=2)
     slid = rows(text, "time [s]")[-1][1]
-    # a t²/2, a = g (sin 30° − 0.55 cos 30°); speeds of a step's end make it longer by h/t = 0.25 %, and bonds yield a little at the start
+    # a t²/2, a = g (sin 30° − 0.55 cos 30°); speeds of a step's end make it longer by h/t = 0.25 %, and bonds yield a
+    # little at the start
     assert slid == pytest.approx(1e3 * 0.5 * 9.81 * (0.5 - 0.55 * math.cos(math.pi / 6)) * 4, rel=0.01)
 
 
@@ -380,7 +388,8 @@ def test_soft_wedge_slides_when_its_weight_comes_and_creeps_as_the_water_changes
 
 
 def test_beams_break_at_the_root_at_the_load_of_statics(output):
-    # hard: the root yields at 1 and turns until its bond leaves its zone of 1e-3 diameters, 8 % of load later at this rate; soft: it snaps
+    # hard: the root yields at 1 and turns until its bond leaves its zone of 1e-3 diameters, 8 % of load later at this
+    # rate; soft: it snaps
     for world, seconds, most in (("hard", 20, 1.10), ("soft", 3, 1.03)):
         text = output(f"{world}_beam.py", seconds=seconds)
         assert 0.99 < number(text, "broken at the load [of that of statics]") < most
@@ -428,7 +437,8 @@ def test_hard_slope_fails_at_the_water_of_statics_and_stands_where_it_is_rough(o
 def test_soft_slope_fails_at_the_water_of_statics_too(output):
     text = output("soft_slope.py", young=1e8, dt=1e-3, rate=1.5, seconds=3)
     asked, failed = number(text, "water at failure by statics [m]"), number(text, "water at failure [m]")
-    # it moves when the third row is wet, and water that rises at 1.5 m/s takes half a second or less, 0.8 m, until it has moved by 2 cm
+    # it moves when the third row is wet, and water that rises at 1.5 m/s takes half a second or less, 0.8 m, until it
+    # has moved by 2 cm
     assert asked < failed < asked + 0.8
     assert number(text, "travel of the front [m]") > 0.02
 
@@ -448,7 +458,9 @@ def test_a_floor_bears_the_lid_and_the_disks(output):
 
 
 def test_a_shear_box_resists_alike_in_both_worlds(output):
-    """Disks with μ = 0.5 slide over each other at about 0.3 of the normal stress. Means over half of the way scatter by some 0.05 from packing to packing."""
+    """Disks with μ = 0.5 slide over each other at about 0.3 of the normal stress. Means over half of the way scatter by
+    some 0.05 from packing to packing.
+    """
     said = {world: output(f"{world}_shear.py") for world in ("hard", "soft")}
     for world, text in said.items():
         as_kept("shear", world, text, second_half=0.06, height_under_the_lid_m=0.02)  # scatter from packing to packing
@@ -457,7 +469,9 @@ def test_a_shear_box_resists_alike_in_both_worlds(output):
 
 
 def test_a_drum_carries_its_disks_up_alike_in_both_worlds(output):
-    """The centre of mass hangs at an angle near that of repose. With 136 disks avalanches move it by ± 8°, and means of the hard and the soft run differ by 2°."""
+    """The centre of mass hangs at an angle near that of repose. With 136 disks avalanches move it by ± 8°, and means of
+    the hard and the soft run differ by 2°.
+    """
     said = {world: output(f"{world}_drum.py") for world in ("hard", "soft")}
     for world, text in said.items():
         as_kept("drum", world, text, mean_angle_degrees=3)  # avalanches move single angles by 8°
@@ -470,7 +484,9 @@ def test_a_drum_carries_its_disks_up_alike_in_both_worlds(output):
 
 
 def test_a_disk_rises_to_the_share_that_restitution_or_damping_leaves_it(output):
-    """Rigid: e². Springs: damping λ brakes fall and rise, (1 − λ)/(1 + λ), and an elastic impact alike (Equivalent.restitution)."""
+    """Rigid: e². Springs: damping λ brakes fall and rise, (1 − λ)/(1 + λ), and an elastic impact alike
+    (Equivalent.restitution).
+    """
     hard = number(output("hard_bounce.py"), "height of bounce 1 [of the height before]")
     assert hard == pytest.approx(
         0.9**2, rel=5e-3
@@ -495,10 +511,12 @@ def test_an_oedometer_springs_back_and_rigid_grains_do_not(output):
         assert [stress for stress, _ in table] == [2e4, 4e4, 8e4, 1e4]
         last[world] = table[-2][1], table[-1][1]
     pressed, released = last["hard"]
-    # grains of 0.07 m slide into place by some hundredths of their size, as long as it takes, and nothing brings them back; what is left is the creep that the tolerance allows
+    # grains of 0.07 m slide into place by some hundredths of their size, as long as it takes, and nothing brings them
+    # back; what is left is the creep that the tolerance allows
     assert 1e-5 < pressed < 6e-3 and abs(released - pressed) < 0.2 * pressed
     pressed, released = last["soft"]
-    # k = E R for each of some 13 layers of 14 disks: 8e4 Pa m / 14 / (1e9 Pa · 0.035 m) of each, 2 mm, and half as much again since the layers lie askew
+    # k = E R for each of some 13 layers of 14 disks: 8e4 Pa m / 14 / (1e9 Pa · 0.035 m) of each, 2 mm, and half as much
+    # again since the layers lie askew
     assert 0.002 < pressed < 0.010 and released < 0.5 * pressed
 
 
@@ -554,16 +572,20 @@ def test_the_block_of_the_front_page_slides_as_it_says(tmp_path):
     done = shell.run("yade-nonsmooth", script, "--threads", 1, limit=120)
     assert done.returncode == 0, done.stderr
     speed, bonds = re.search(r"1 s: mean speed +(\S+) m/s, +(\d+) bonds left", done.stdout).groups()
-    # (sin 30° − 0.2 cos 30°) g t from rest; three digits are printed, and the block settles onto the slope within the first steps
+    # (sin 30° − 0.2 cos 30°) g t from rest; three digits are printed, and the block settles onto the slope within the
+    # first steps
     assert float(speed) == pytest.approx(9.81 * (0.5 - 0.2 * math.cos(math.pi / 6)), rel=0.01)
     assert int(bonds) == int(re.search(r"bonds made: (\d+)", done.stdout).group(1))
 
 
 @pytest.mark.parametrize("angle", [0, 90, 180, 270])
 def test_a_law_tester_finds_the_thresholds_of_the_law(output, angle):
-    """F_a, μ_s (F_a + N) and μ_r ℓ (F_a + N) of bonds of 100 kPa between disks of 1 m, with N = 0 and N = F_a; kN and kN m."""
+    """F_a, μ_s (F_a + N) and μ_r ℓ (F_a + N) of bonds of 100 kPa between disks of 1 m, with N = 0 and N = F_a; kN and
+    kN m.
+    """
     known = {("pull", 0.0): 100, ("shear", 0.0): 50, ("shear", 100.0): 100, ("roll", 0.0): 12.5, ("roll", 100.0): 25}
-    # the digits printed; a spring snaps within a step of the path, which is a 30th of what it bears, and its pair under a load has turned by 0.007
+    # the digits printed; a spring snaps within a step of the path, which is a 30th of what it bears, and its pair under
+    # a load has turned by 0.007
     for world, steps, within in (("hard", 500, 1e-4), ("soft", 4000, 0.03))[: 2 - (angle > 90)]:
         text = output(f"{world}_tester.py", steps=steps, angle=angle)
         found = {}
@@ -574,6 +596,7 @@ def test_a_law_tester_finds_the_thresholds_of_the_law(output, angle):
         for key, (largest, threshold, end) in found.items():
             assert threshold == pytest.approx(known[key], rel=within), (world, key)
             assert largest == pytest.approx(known[key], rel=within), (world, key)
-            # of the hard bond that of its ellipse: 0.02 ℓ, and where a roll has brought the mark so far along the normal, r φ²/4
+            # of the hard bond that of its ellipse: 0.02 ℓ, and where a roll has brought the mark so far along the
+            # normal, r φ²/4
             if world == "hard":
                 assert float(end) == pytest.approx(0.4 if key[0] == "roll" else 0.02, rel=0.02), key

@@ -1,4 +1,6 @@
-"""The numbers of doc/lessons.rst: what is read from what a lesson prints, and that the lessons still print what the page says."""
+"""The numbers of doc/lessons.rst: what is read from what a lesson prints, and that the lessons still print what the
+page says.
+"""
 import json
 import re
 

@@ -37,7 +37,8 @@ def numbers(text, line):
 def test_a_conveyor_carries_disks_at_its_speed():
     text = said("conveyor.py")
     slowest, fastest = numbers(text, "speed on the belt [m/s]")
-    # friction takes them to 2 m/s in less than 2 m, rolling friction of 0.05 ends what rolls: two thirds of g 2·0.05 in 2 s; joints of the belt cost nothing
+    # friction takes them to 2 m/s in less than 2 m, rolling friction of 0.05 ends what rolls: two thirds of g 2·0.05 in
+    # 2 s; joints of the belt cost nothing
     assert slowest == pytest.approx(2, abs=1e-3) and fastest == pytest.approx(2, abs=1e-3)
     fed, gone = numbers(text, "disks fed")
     assert (
@@ -50,7 +51,8 @@ def test_as_many_disks_go_as_come():
     fed, there, erased = numbers(text, "fed")
     assert fed == 990 and there + erased == fed
     _, _, rate = numbers(text, "a second: fed")
-    # the outlet lets through more than is fed (Beverloo: some 0.6 m √(g 0.6 m) and disks of 0.004 m²), so the flow is what comes
+    # the outlet lets through more than is fed (Beverloo: some 0.6 m √(g 0.6 m) and disks of 0.004 m²), so the flow is
+    # what comes
     assert rate == pytest.approx(100, abs=4)  # ten at a time: two feeds more or less in 5 s
     assert numbers(text, "deepest overlap")[0] < 0.02
 
@@ -74,7 +76,9 @@ def test_a_gas_has_the_pressure_of_its_energy():
 
 
 def test_a_shaken_slope_slides_as_newmarks_block(tmp_path, monkeypatch):
-    """doc/section_limits.rst: a block on a plane of the dip β slides while the ground pushes it by more than g tan(φ − β), and then gains a (cos β + μ sin β) − g (μ cos β − sin β)."""
+    """doc/section_limits.rst: a block on a plane of the dip β slides while the ground pushes it by more than g tan(φ −
+    β), and then gains a (cos β + μ sin β) − g (μ cos β − sin β).
+    """
     monkeypatch.chdir(tmp_path)
     text = said("shaken_slope.py")
     g, mu, push, beta = 9.81, 0.7, 3.0, math.atan2(26.3, 62)

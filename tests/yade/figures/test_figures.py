@@ -73,7 +73,9 @@ def test_disks_have_their_true_radii():
 
 
 def test_colours_stand_on_the_picture_where_the_disks_are():
-    """One pixel at the centre of each disk, of a figure with other things in it: what is read from artists is what is seen."""
+    """One pixel at the centre of each disk, of a figure with other things in it: what is read from artists is what is
+    seen.
+    """
     x, y = np.array([-60.0, -40.0, -20.0]), np.array([60.0, 45.0, 30.0])
     s = synthetic.few(x, y, r=np.full(3, 4.0), wet=[False, True, True], released=[False, False, True])
     fig = figures.snapshots(
@@ -133,7 +135,9 @@ def test_a_slope_falls_along_its_slip_surfaces(surfaces, side):
 
 
 def test_ground_goes_on_as_its_last_wall_does_where_that_is_less_steep_than_45_degrees():
-    """A fall of 1 in 2 on both sides; one of 3 in 2 goes on level; nothing where walls reach the limits, or are buried."""
+    """A fall of 1 in 2 on both sides; one of 3 in 2 goes on level; nothing where walls reach the limits, or are
+    buried.
+    """
     beyond = lambda points, *limits: [
         p.tolist() for p in ground_of([("DP", points, "slip")]).beyond(*limits)
     ]  # noqa: E731
@@ -193,7 +197,8 @@ def test_layers_get_darker_downwards_and_begin_anew_above_the_fifth():
 
 def test_running_mean_stays_centred():
     x = np.linspace(0, 10, 101)
-    # of a straight line it is the line itself, also at the ends, where a window cut on one side would lean; exact but for rounding
+    # of a straight line it is the line itself, also at the ends, where a window cut on one side would lean; exact but
+    # for rounding
     np.testing.assert_allclose(style.running_mean(x, 3 * x + 1, 2.0), 3 * x + 1, rtol=1e-12)
     # of a spike it is the spike's share of the window: 21 rows in the middle
     spike = np.zeros(101)
@@ -218,7 +223,9 @@ def test_importing_needs_no_display_and_leaves_the_settings_alone(series):
 
 
 def test_an_axis_of_a_sweep_goes_on_beside_its_ends():
-    """By a share of the axis: of its length, of its factor where it is logarithmic, of the value where there is one alone, of 1 where that is nought."""
+    """By a share of the axis: of its length, of its factor where it is logarithmic, of the value where there is one
+    alone, of 1 where that is nought.
+    """
     beside = synthetic.load("figures.sweep")._beside
     assert (beside(2.0, -0.1, [2.0, 4.0], False), beside(4.0, 0.1, [2.0, 4.0], False)) == pytest.approx((1.8, 4.2))
     assert (beside(1.0, -0.5, [1.0, 10.0, 100.0], True), beside(100.0, 0.5, [1.0, 10.0, 100.0], True)) == pytest.approx(

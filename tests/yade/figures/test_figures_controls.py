@@ -1,4 +1,6 @@
-"""Figures of a slope beside its control runs, and of columns of disks that are followed, read from their artists. Needs no YADE."""
+"""Figures of a slope beside its control runs, and of columns of disks that are followed, read from their artists. Needs
+no YADE.
+"""
 
 import dataclasses
 
@@ -22,7 +24,9 @@ def line(*points):
 
 
 def series(far=300.0, **changes):
-    """The centre of mass goes 3 : 4 : 5 from 30 s to 50 s; water from 0 to 20 m in 10 s to 30 s, which lifts 10 MN/m a metre; dry forces on FB and DP 100 and 400 MN/m, μ 0.3, N 1,500 MN/m."""
+    """The centre of mass goes 3 : 4 : 5 from 30 s to 50 s; water from 0 to 20 m in 10 s to 30 s, which lifts 10 MN/m a
+    metre; dry forces on FB and DP 100 and 400 MN/m, μ 0.3, N 1,500 MN/m.
+    """
     water = line((10, 0), (30, 20))
     made = {
         "time_s": T,
@@ -148,7 +152,9 @@ def block(**changes):
 
 
 def test_columns_are_thin_and_at_equal_distances():
-    """Of 200 m in four parts: three disks wide, in the middles of the parts, at 25, 75, 125 and 175 m; of a slope, normal to it."""
+    """Of 200 m in four parts: three disks wide, in the middles of the parts, at 25, 75, 125 and 175 m; of a slope,
+    normal to it.
+    """
     walls = [("G", np.array([[-10.0, 0.0], [300.0, 0.0]]), "slip")]
     column = markers.columns(block(), walls, 4)
     x = block().x

@@ -1,4 +1,6 @@
-"""Figures of forces, read from their artists: chains in the slope, and sums on its walls against time. Needs no YADE."""
+"""Figures of forces, read from their artists: chains in the slope, and sums on its walls against time. Needs no
+YADE.
+"""
 
 import dataclasses
 
@@ -88,7 +90,9 @@ def test_the_second_window_is_a_close_up_also_of_few_disks():
 
 
 def test_both_windows_have_the_shape_of_their_axes(chains):
-    """Equal scales: what is shown is as high by its width as the axes are, to a per cent, as the frame takes no room; the foot is near the lower edge."""
+    """Equal scales: what is shown is as high by its width as the axes are, to a per cent, as the frame takes no room;
+    the foot is near the lower edge.
+    """
     for window, below in zip(chains.axes[1:], (0.07, 0.13)):
         height, wide = np.ptp(window.get_ylim()), np.ptp(window.get_xlim())
         place = window.get_position(original=True)
@@ -148,7 +152,9 @@ def test_windows_are_where_their_frames_are(chains):
 
 @pytest.mark.parametrize("side", [1, -1])
 def test_names_of_walls_do_not_cover_each_other_nor_the_scale(slope, side):
-    """Three walls that end at one foot, with long names: each has its name or none, and none lies on another, on the letter or on the scale."""
+    """Three walls that end at one foot, with long names: each has its name or none, and none lies on another, on the
+    letter or on the scale.
+    """
     low = [(name, np.array(points) * (side, 1), role) for name, points, role in WALLS]
     long = [(f"the {role} called {name}", points, role) for name, points, role in low]
     more = [("a second slip surface", np.array([[-100.0, 49.0], [0.0, -1.0]]) * (side, 1), "slip")]
@@ -275,7 +281,9 @@ def test_legends_have_the_colours_of_their_lines_and_of_the_sketch(courses):
 
 @pytest.mark.parametrize("side", [1.0, -1.0])
 def test_the_sketch_has_the_water_table_of_the_slope(side):
-    """Parallel to the surface where it follows it; level where it is a reservoir's, from the surface to the backstop, or beyond the toe where there is none."""
+    """Parallel to the surface where it follows it; level where it is a reservoir's, from the surface to the backstop,
+    or beyond the toe where there is none.
+    """
 
     def table(**options):
         ax = style.figure(3, 2).add_axes([0, 0, 1, 1])
@@ -305,7 +313,9 @@ def test_the_sketch_falls_to_the_side_that_the_slope_falls_to(side):
 
 
 def test_the_sketch_shows_what_the_walls_exert_on_the_mass(courses):
-    """The plane pushes up along its normal and holds the mass back, up the slope; the backstop pushes back towards the slope."""
+    """The plane pushes up along its normal and holds the mass back, up the slope; the backstop pushes back towards the
+    slope.
+    """
     sketch = courses.axes[0]
     turn = np.radians(21)
     normal, down = np.array([np.sin(turn), np.cos(turn)]), np.array([np.cos(turn), -np.sin(turn)])
@@ -386,7 +396,9 @@ def test_zero_of_the_water_table_is_that_of_the_forces_and_all_means_are_in_sigh
 
 
 def test_means_begin_when_the_avalanche_moves():
-    """A jump of one row is seen whole before t3; behind it a line shows its part of the mean over the window, with the jump pale behind."""
+    """A jump of one row is seen whole before t3; behind it a line shows its part of the mean over the window, with the
+    jump pale behind.
+    """
     fb = np.zeros(1001)
     fb[200], fb[750] = 42e6, 42e6  # 20 s and 75 s
     fig = figures.forces_against_time(straight(fb_normal_N_per_m=fb), TIMES, window=2.0)

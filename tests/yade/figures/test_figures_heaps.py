@@ -22,14 +22,18 @@ def block(left, wide, high):
 
 @pytest.fixture(scope="module")
 def fallen():
-    """A block of 5 by 8 m becomes one of 10 by 4 m, both from x = 0; one disk has rolled ahead, to 30 m. Who was on the left is on the right."""
+    """A block of 5 by 8 m becomes one of 10 by 4 m, both from x = 0; one disk has rolled ahead, to 30 m. Who was on the
+    left is on the right.
+    """
     (x, y), (far, low) = block(0, 5, 8), block(0, 10, 4)
     far[-1], low[-1] = 30.0, 0.5
     return [0.5, 2.5], [(x, y), (far[::-1], low[::-1])], np.full(40, 0.5)
 
 
 def run_of(places, r, height, place=0.0, runout=1.0):
-    """As a campaign.HeapRun: of a box 5 m wide that stands at ``place``, whose centre of mass has sunk to ``height`` of that of the release within 10 s, four T."""
+    """As a campaign.HeapRun: of a box 5 m wide that stands at ``place``, whose centre of mass has sunk to ``height`` of
+    that of the release within 10 s, four T.
+    """
     return SimpleNamespace(
         summary=dict(width_m=5.0, fall_time_s=2.5, runout_rel=runout),
         series=dict(time_s=np.array([0.0, 10.0]), centroid_y_m=np.array([4.0, 4.0 * height])),
@@ -92,7 +96,8 @@ def test_a_collapse_is_drawn_from_above_down_to_one_scale(fallen, width, unit):
     for ax, wide, high in ((upper, 5, 8), (lower, 10, 4)):
         (outline,) = (drawn.points(one) for one in ax.lines if len(one.get_xdata()) > 2)
         assert outline[:, 0].min() > 0 and wide - 2 < scale * outline[:, 0].max() < wide  # windows of two diameters
-        # the top of disks of half a metre side by side: 1 - π/4 of their size below the highest points, on the mean over whole disks
+        # the top of disks of half a metre side by side: 1 - π/4 of their size below the highest points, on the mean
+        # over whole disks
         assert scale * outline[:, 1][:-1] == pytest.approx(high - 0.5 + math.pi / 8, abs=0.05)
 
 

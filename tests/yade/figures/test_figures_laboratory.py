@@ -1,4 +1,6 @@
-"""Figures of the laboratory, read from their artists: biaxial tests, slides on walls, the wedge that creeps. Needs no YADE."""
+"""Figures of the laboratory, read from their artists: biaxial tests, slides on walls, the wedge that creeps. Needs no
+YADE.
+"""
 
 import math
 
@@ -20,7 +22,9 @@ PEAK, PLATEAU = (style.LINES[name].lower() for name in ("blue", "orange"))
 
 
 def strained(confining, peak, residual):
-    """A test in 1200 steps of 5e-5 of strain: a rise to ``peak`` [Pa] over 1 %, a fall to ``residual`` until 3 %, and a plateau; volume grows by half of the strain."""
+    """A test in 1200 steps of 5e-5 of strain: a rise to ``peak`` [Pa] over 1 %, a fall to ``residual`` until 3 %, and a
+    plateau; volume grows by half of the strain.
+    """
     strain = 5e-5 * np.arange(1, 1201)
     axial = np.interp(strain, (0, 0.01, 0.03), (confining, peak, residual))
     # platens that differ, about the mean
@@ -56,7 +60,8 @@ def test_stress_over_confining_pressure_and_volume_against_strain():
         axial = 0.5 * (series["sigma1_top_Pa"] + series["sigma1_bottom_Pa"])
         assert rows == pytest.approx(np.column_stack([100 * series["strain"], axial / confining]))
         mean = drawn.points(drawn.line(top, name))
-        # where the curve is straight over 0.2 %, the mean stands on it; a row is the mean of what it covers, half a row before its end
+        # where the curve is straight over 0.2 %, the mean stands on it; a row is the mean of what it covers, half a row
+        # before its end
         straight = (mean[:, 0] > 0.2) & (mean[:, 0] < 0.85)
         assert straight.sum() > 100 and mean[straight, 1] == pytest.approx(
             np.interp(mean[straight, 0] + 0.0025, 100 * series["strain"], axial / confining), rel=1e-9
@@ -155,7 +160,9 @@ def envelope(cohesion, friction, confining):
 
 @pytest.fixture(scope="module")
 def campaign():
-    """Tests that fail on lines of 500 kPa and 35° at the peak, 0 and 25° on the plateau, whose lines their circles touch."""
+    """Tests that fail on lines of 500 kPa and 35° at the peak, 0 and 25° on the plateau, whose lines their circles
+    touch.
+    """
     tests = [
         {
             "confining_Pa": p,
@@ -334,7 +341,9 @@ def test_effects_show_samples_means_and_the_usual_value():
 
 
 def slid(material, seed, friction):
-    """A wall's strengths: peak and residual friction, 10 kPa of cohesion at the peak, of two pressures; and their courses."""
+    """A wall's strengths: peak and residual friction, 10 kPa of cohesion at the peak, of two pressures; and their
+    courses.
+    """
     pressures, (peak, residual) = [0.5e6, 2e6], friction
     slides = [
         {

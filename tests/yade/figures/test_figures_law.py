@@ -104,7 +104,9 @@ def test_the_legend_has_the_materials_numbers():
 
 
 def test_a_contact_that_is_never_bonded_has_one_curve():
-    """Nothing cohesive: the cone begins at zero, and 100 kPa times ℓ are on the contact; a small one has small units."""
+    """Nothing cohesive: the cone begins at zero, and 100 kPa times ℓ are on the contact; a small one has small
+    units.
+    """
     wall = dataclasses.replace(ROCK, bonded=False, residual_tensile_strength=0.0)
     axes = figures.contact_law(wall, 0.02).axes
     assert [[one.get_label() for one in ax.lines if one.get_label() == BOND] for ax in axes] == [[]] * 6
@@ -172,7 +174,9 @@ def water(dip, **others):
 
 @pytest.mark.parametrize("dip", [21.0, -21.0, 50.0])
 def test_buoyancy_and_seepage_make_a_force_normal_to_the_slope(dip):
-    """γ_w V up and γ_w V sin β down the slope have no part along the slope left over, and γ_w V cos β normal to it; with the weight, in one scale."""
+    """γ_w V up and γ_w V sin β down the slope have no part along the slope left over, and γ_w V cos β normal to it;
+    with the weight, in one scale.
+    """
     fig, at_disk, summed = water(dip)
     (top, foot) = drawn.points(drawn.line(fig.axes[0], "plane"))
     down = (foot - top) / math.dist(top, foot)

@@ -104,7 +104,9 @@ def test_the_error_is_in_per_cent_with_its_limit(error, limit):
 
 
 def test_an_error_of_next_to_nothing_is_small():
-    """A slope that stands has turned over a joule when its balance is half a joule off, and an avalanche's gigajoule later: half a billionth."""
+    """A slope that stands has turned over a joule when its balance is half a joule off, and an avalanche's gigajoule
+    later: half a billionth.
+    """
     rest = {name: np.zeros(3) for name in balance()} | {"time_s": np.arange(3.0)}
     rest |= {"energy_sliding_J": np.array([0.0, 1.0, 1e9]), "energy_error_rel": np.array([0.0, 0.5, 0.0])}
     assert energy.balance_error(rest) == pytest.approx([0, 0.5e-9, 0]) and energy.turned_over(rest) == 1e9

@@ -61,7 +61,8 @@ def test_disks_walls_bonds_and_forces_are_where_they_are():
     )
     weight = 2500 * math.pi / 4 * 9.81
     forces = {(int(i), int(j)): f for i, j, f in zip(found.ci, found.cj, found.cn)}
-    # contacts of the stack bear one to four disks; of those that hang the upper bond bears two, the lower one, in tension. The solver's tolerance
+    # contacts of the stack bear one to four disks; of those that hang the upper bond bears two, the lower one, in
+    # tension. The solver's tolerance
     wanted = {
         (0, -1): 4 * weight,
         (0, 1): 3 * weight,

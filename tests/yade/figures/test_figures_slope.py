@@ -1,4 +1,6 @@
-"""Figures of the slope in profile, read from their artists: states at the characteristic times, deposit. Needs no YADE."""
+"""Figures of the slope in profile, read from their artists: states at the characteristic times, deposit. Needs no
+YADE.
+"""
 
 import itertools
 import re
@@ -182,7 +184,9 @@ def steps(*blocks, **changes):
 
 @pytest.fixture(scope="module")
 def slid():
-    """A high block and a low one to the right of it become a low one and a high one, 100 m on: mirrored, so that a profile drawn mirrored would show."""
+    """A high block and a low one to the right of it become a low one and a high one, 100 m on: mirrored, so that a
+    profile drawn mirrored would show.
+    """
     before = steps((-90, -60, 12), (-60, -30, 6))
     after = steps((10, 40, 6), (40, 70, 12))
     after.layer[:] = (after.y > 24).astype(int) + (after.y > 28)
@@ -255,7 +259,9 @@ def test_deposit_profile_measures_thickness_and_front():
 
 @pytest.mark.parametrize("side", [1, -1])
 def test_the_front_leaves_out_a_thousandth_of_the_area(side):
-    """Of 2,001 disks of one size in a row the front is the edge of the third from the end, whoever asks: the two beyond are 0.9995 of a thousandth. Where they have more, the last one is the front."""
+    """Of 2,001 disks of one size in a row the front is the edge of the third from the end, whoever asks: the two beyond
+    are 0.9995 of a thousandth. Where they have more, the last one is the front.
+    """
     x = np.r_[np.arange(1999.0), 1e5, 2e5]
     s = synthetic.few(side * x, 0 * x, r=np.full(2001, 0.5))
     assert fronts.front(s, side) == fronts.front_of(s.x, s.r, side) == side * 1998.5
@@ -327,7 +333,9 @@ def test_water_table_is_parallel_to_the_plane_at_its_height():
 
 
 def test_water_stands_above_a_plane_that_falls_to_either_side():
-    """10 m along the normal (0.6, 0.8) of the plane from (-100, 75), or (-0.6, 0.8) from (100, 75), in whichever order its points are given."""
+    """10 m along the normal (0.6, 0.8) of the plane from (-100, 75), or (-0.6, 0.8) from (100, 75), in whichever order
+    its points are given.
+    """
     for walls, wanted in ((WALLS, [(-94, 83), (6, 8)]), (mirror(WALLS), [(-6, 8), (94, 83)])):
         for order in (1, -1):
             found = ground.ground_of([(name, np.array(points)[::order], role) for name, points, role in walls])
@@ -375,7 +383,9 @@ def drawn_table(line):
 
 
 def test_a_reservoir_ends_at_the_ground_on_both_sides():
-    """Its level meets the slip surface and the far side of the valley; a picture that shows neither has it from side to side."""
+    """Its level meets the slip surface and the far side of the valley; a picture that shows neither has it from side to
+    side.
+    """
     x, y = drawn_table(style.water_line(axes(-100, 100, -10, 60), over(VALLEY, (0.0, 1.0)), 30.0))
     assert y.tolist() == [30, 30]
     assert x == pytest.approx([-40, 50], abs=0.11)  # 2,001 places across 200 m
@@ -434,8 +444,9 @@ def test_the_view_holds_all_disks_and_some_ground_before_the_foot():
 
 @pytest.mark.parametrize("top, bottom, high", [(20.0, 0.33, 100.0), (50.0, 0.53, 100.0), (80.0, 0.6, 80 / 0.57)])
 def test_a_close_up_stands_above_all_that_is_below_it(top, bottom, high):
-    """In a panel of 200 m by 100 m from 44.5 % of its width to 79 %, on the side to which the slope falls: over a disk up to ``top``, 3 % of the panel's height above it, no lower
-    than a third; where less than 35 % are left under 95 %, more sky."""
+    """In a panel of 200 m by 100 m from 44.5 % of its width to 79 %, on the side to which the slope falls: over a disk
+    up to ``top``, 3 % of the panel's height above it, no lower than a third; where less than 35 % are left under 95 %,
+    more sky."""
     disks = synthetic.few([-90.0, 0.0, 90.0], [90.0, top - 4.0, 90.0], r=[4.0] * 3)
     for walls, sign in ((WALLS, 1), (mirror(WALLS), -1)):
         flat = ground.ground_of(walls)

@@ -63,7 +63,9 @@ def series():
 
 @pytest.fixture
 def shown(monkeypatch, tmp_path):
-    """A function that makes a video without ffmpeg: (figure, [what each frame showed]), with its picture (rows from the top)."""
+    """A function that makes a video without ffmpeg: (figure, [what each frame showed]), with its picture (rows from the
+    top).
+    """
     monkeypatch.setattr(film.FFMpegWriter, "isAvailable", classmethod(lambda cls: True))
 
     class Kept:
@@ -142,7 +144,9 @@ def test_one_snapshot_makes_one_frame(shown, files):
 
 
 def test_frames_are_pictures_of_one_view(shown, files):
-    """The colour at the centre of each disk on the picture, 1280 by 720, of each frame; where a disk was before there is none."""
+    """The colour at the centre of each disk on the picture, 1280 by 720, of each frame; where a disk was before there
+    is none.
+    """
     told = shown(files, fps=10)
     ax = told.fig.axes[0]
     assert ax.get_aspect() == 1 and {f.picture.shape for f in told.frames} == {(720, 1280, 4)}

@@ -1,4 +1,6 @@
-"""The benchmark on a small slope: it measures all it promises, and keeps its states. No test here asserts a wall time."""
+"""The benchmark on a small slope: it measures all it promises, and keeps its states. No test here asserts a wall
+time.
+"""
 import dataclasses
 import itertools
 import json
@@ -24,7 +26,8 @@ from yade.wrapper import NewtonIntegrator, PorePressureEngine, Segment, Sphere
 
 ROOT = Path(__file__).resolve().parents[3]
 DISKS = 350
-# The shipped section, loose and soon settled; so few disks do not hold on a plane as smooth as its own, nor from every seed.
+# The shipped section, loose and soon settled; so few disks do not hold on a plane as smooth as its own, nor from every
+# seed.
 QUICK = {
     "packing_fraction: 0.848": "packing_fraction: 0.82",
     "ramp: 4.0": "ramp: 1.0",
@@ -336,7 +339,8 @@ def test_cost_by_size_is_measured_and_drawn(measured, tmp_path):
         assert s["sweep_ns_per_contact"]["1"]["median"] > 0 and s["packing_s"] > 0 and s["step_ms"]["median"] > 0
         assert s["cold_start"]["sweeps"] > 10 and s["steps"] == 100
         assert 1 < s["candidates"] / s["disks"] < 6
-        # soft disks have contacts inside their layers only, until the slope is loaded; some kB each, whatever the interpreter took before
+        # soft disks have contacts inside their layers only, until the slope is loaded; some kB each, whatever the
+        # interpreter took before
         assert (
             0.1 * s["candidates"] < s["soft_memory"]["contacts"] < s["candidates"]
             and 500 < s["soft_memory"]["bytes_per_disk"] < 50_000

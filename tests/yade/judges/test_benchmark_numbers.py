@@ -22,7 +22,9 @@ COST = {
 
 @pytest.fixture
 def made_up(monkeypatch):
-    """Solves that take half a second once, and COST for each sweep and ONE contacts; memory that gives 2 GB/s, and 8 GB/s what fits a cache."""
+    """Solves that take half a second once, and COST for each sweep and ONE contacts; memory that gives 2 GB/s, and 8
+    GB/s what fits a cache.
+    """
     size = _nonsmooth_contact.bytes_per_contact
 
     def solve(problem, max_iterations, threads, path, precision, **others):
@@ -134,7 +136,9 @@ def test_the_printed_table_says_the_headlines_with_their_words(found):
 
 
 def test_a_block_of_steps_is_divided_by_their_number(monkeypatch):
-    """Blocks of ten steps and the rest of them; every call of the clock is a second later, every step gives its engine 1 ms."""
+    """Blocks of ten steps and the rest of them; every call of the clock is a second later, every step gives its engine
+    1 ms.
+    """
     clock = iter(range(100))
     monkeypatch.setattr(steps.time, "perf_counter", lambda: float(next(clock)))
     timed = object.__new__(steps.TimedSteps)
@@ -157,7 +161,9 @@ def test_a_block_of_steps_is_divided_by_their_number(monkeypatch):
 
 
 def test_the_states_shares_of_their_making_follow_each_other(monkeypatch, tmp_path):
-    """A half of it settles, three tenths move, two are soft; each stage tells of its beginning, its middle and its end."""
+    """A half of it settles, three tenths move, two are soft; each stage tells of its beginning, its middle and its
+    end.
+    """
     told = []
 
     def stage(*arguments):
@@ -193,7 +199,9 @@ def test_a_course_of_measurements_makes_its_folders(tmp_path, monkeypatch):
 
 @pytest.mark.parametrize("noted, share", [("0.5", 0.4), ("", 0.2), (None, 0.2), ("9", 1.0)])
 def test_a_course_of_measurements_says_how_far_it_is(tmp_path, noted, share):
-    """Of 100 s foreseen 20 s are gone, and one of 40 s has noted its share; what takes longer than foreseen does not go beyond the whole."""
+    """Of 100 s foreseen 20 s are gone, and one of 40 s has noted its share; what takes longer than foreseen does not go
+    beyond the whole.
+    """
     told, turns = [], iter([False, True])
     made = course.MeasuringCourse(tmp_path, 100.0, lambda *arguments: told.append(arguments))
     made.gone = 20.0

@@ -20,7 +20,8 @@ def test_a_short_soak(tmp_path):
     assert [row["step"] for row in rows] == list(range(50, 2001, 50)) and found["grew"] is None
     assert all(row["inside"] == 60 for row in rows)
     assert rows[-1]["turns"] == pytest.approx(0.1, rel=1e-9)
-    # they have fallen and lie: by potential energy of order m g R, of which the balance, first order in the step, misses a few thousandths at most
+    # they have fallen and lie: by potential energy of order m g R, of which the balance, first order in the step,
+    # misses a few thousandths at most
     assert rows[-1]["dissipated_J"] > 60 * 1500 * 9.81 * 1.0 and abs(rows[-1]["energy_error_rel"]) < 3e-3
     assert 0 < rows[-1]["overlap_worst_rel"] < 0.01
     other = command("--steps", 2000, "--disks", 60, "--threads", 1, "--way", "step", "--out", tmp_path / "stepped.json")

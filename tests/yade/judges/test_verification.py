@@ -29,7 +29,9 @@ pytestmark = pytest.mark.usefixtures("empty")
 
 
 def verify(*arguments):
-    """Runs the command in a process of its own; with one thread, as for scenes of a few bodies two would only wait for each other."""
+    """Runs the command in a process of its own; with one thread, as for scenes of a few bodies two would only wait for
+    each other.
+    """
     return shell.run("verify.py", *arguments, "--threads", 1)
 
 
@@ -146,14 +148,18 @@ def test_an_outcome_without_claims_does_not_pass():
 
 
 def failing(**changes):
-    """The statements whose claim does not hold, where all numbers are in the middle of what is claimed but for ``changes``, lists of one value a packing."""
+    """The statements whose claim does not hold, where all numbers are in the middle of what is claimed but for
+    ``changes``, lists of one value a packing.
+    """
     middle = {name: [0.5 * (said.low + said.high)] * 3 for name, said in paper.STATEMENTS.items()}
     claims = paper.claims_of(middle | changes)
     return [name for name, claim in zip(paper.STATEMENTS, claims, strict=True) if not claim.passed]
 
 
 def test_a_foot_that_loses_its_strength_before_the_slope_accelerates_fails_its_claim():
-    """The force on FB may fall by a twentieth from its largest value until t2, in the mean over packings; it cannot fall by less than nothing."""
+    """The force on FB may fall by a twentieth from its largest value until t2, in the mean over packings; it cannot
+    fall by less than nothing.
+    """
     assert failing() == []
     assert failing(backstop_fall=[0.12, 0.01, 0.019]) == []  # 4.97 % in the mean
     for values in ([0.12, 0.01, 0.021], [0.25, 0.25, 0.25], [-0.01, 0.0, 0.0]):

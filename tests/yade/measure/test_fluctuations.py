@@ -14,7 +14,9 @@ STRAIN = 1e-4 * np.arange(1, 1001)  # to 10 %
 
 
 def test_a_sine_of_stress_fluctuates_by_its_amplitude_over_root_two():
-    """5 % of a stress that rises slowly, twenty waves a per cent: the mean over a per cent takes none of it out; to 2 %, whole waves and the ends."""
+    """5 % of a stress that rises slowly, twenty waves a per cent: the mean over a per cent takes none of it out; to 2
+    %, whole waves and the ends.
+    """
     stress = 8e6 * (1 + 2 * STRAIN) * (1 + 0.05 * np.sin(2 * math.pi * STRAIN / 5e-4))
     assert fluctuations.fluctuation(STRAIN, stress) == pytest.approx(0.05 / math.sqrt(2), rel=0.02)
     assert (
@@ -25,8 +27,9 @@ def test_a_sine_of_stress_fluctuates_by_its_amplitude_over_root_two():
 
 @pytest.mark.parametrize("end", [0, -1])
 def test_rows_count_up_to_the_middle_of_the_outermost_windows(end):
-    """Twenty rows of 0.3 % of strain, of which one has a tenth more: the first, or the last, that lies between the middles of two windows. A window holds three and a third of them, so that it
-    is off its mean by 0.07, and its neighbours by 0.03."""
+    """Twenty rows of 0.3 % of strain, of which one has a tenth more: the first, or the last, that lies between the
+    middles of two windows. A window holds three and a third of them, so that it is off its mean by 0.07, and its
+    neighbours by 0.03."""
     strain = 3e-3 * np.arange(1, 21)
     middle = strain[0] + 0.5 * fluctuations.WINDOW + 3e-3 * np.arange(16)  # while a window ends by the last row
     inside = np.flatnonzero((strain > middle[0]) & (strain < middle[-1]))
@@ -45,7 +48,9 @@ def test_contractions_are_falls_of_more_than_the_least():
 
 
 def series():
-    """Four contractions of 1.5 areas of a disk on the plateau from 5 to 10 %, three of them with a fall of stress; one before."""
+    """Four contractions of 1.5 areas of a disk on the plateau from 5 to 10 %, three of them with a fall of stress; one
+    before.
+    """
     volume, stress = 2 * STRAIN.copy(), np.full(1000, 20e6)
     for k, drops in ((200, True), (520, True), (640, True), (760, True), (880, False)):
         volume[k : k + 10] -= np.linspace(0, 1, 10) * (1.5e-3 + 2e-4 * 9 * 10 / 9)  # the rise of ten rows besides

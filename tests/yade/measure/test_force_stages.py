@@ -19,7 +19,9 @@ def line(*points):
 
 
 def series(**columns):
-    """A slope of friction 0.4 that does as the paper says, but for the toe that FB's friction holds down, and for a push on FB a quarter too large."""
+    """A slope of friction 0.4 that does as the paper says, but for the toe that FB's friction holds down, and for a
+    push on FB a quarter too large.
+    """
     water = line((10, 0), (30, 200), (34, 200), (40, 0))
     held = line((10, 0), (30, 20), (34, 20))
     normal = 1000 + held + line((40, 0), (80, -600))
@@ -71,7 +73,9 @@ def test_each_number_is_what_the_series_says():
 
 
 def test_a_foot_that_loses_its_strength_before_the_slope_accelerates_shows():
-    """Its force falls by a quarter of the largest, 200, and recovers a little by t2; what was lower before the largest is no fall."""
+    """Its force falls by a quarter of the largest, 200, and recovers a little by t2; what was lower before the largest
+    is no fall.
+    """
     s = series()
     push = line((10, 100), (32, 200), (33, 150), (34, 160))
     assert told(s | {"fb_normal_N_per_m": push})["backstop_fall"] == pytest.approx(0.25, rel=SAME)

@@ -1,4 +1,6 @@
-"""Fronts, surfaces, angles of repose, overlaps and power laws of made-up heaps whose answers are known. Needs no YADE."""
+"""Fronts, surfaces, angles of repose, overlaps and power laws of made-up heaps whose answers are known. Needs no
+YADE.
+"""
 
 import math
 import sys
@@ -65,7 +67,8 @@ def test_overlap_of_pairs_walls_and_glued_disks():
     x, y, r = np.array([0.5, 1.49]), np.array([0.49, 0.5]), np.array([0.5, 0.5])
     fixed = (np.array([2.47, 3.4]), np.array([0.5, 0.5]), np.array([0.5, 0.5]))
     mean, worst = measures.overlap(x, y, r, [y], fixed)
-    # the pair and the glued disk overlap by 1 % and 2 %, the floor by 1 % and 0; glued disks among themselves do not count
+    # the pair and the glued disk overlap by 1 % and 2 %, the floor by 1 % and 0; glued disks among themselves do not
+    # count
     pair = 1 - math.hypot(0.99, 0.01)
     assert worst == pytest.approx(0.02, rel=1e-9) and mean == pytest.approx((pair + 0.02 + 0.01 + 0) / 4, rel=1e-9)
 
@@ -94,7 +97,9 @@ def test_the_surface_is_a_mean_of_tops():
 
 
 def test_repose_is_of_the_middle_of_each_flank():
-    """25° on the left and 15° on the right between 20 and 80 % of 10 m; a flat foot and a flat top count for neither."""
+    """25° on the left and 15° on the right between 20 and 80 % of 10 m; a flat foot and a flat top count for
+    neither.
+    """
     left, right = math.tan(math.radians(25)), math.tan(math.radians(15))
     x = np.linspace(-40, 60, 401)
     height = np.minimum(10 + left * np.minimum(x, 0), 10 - right * np.maximum(x, 0))
@@ -109,7 +114,9 @@ def test_repose_is_of_the_middle_of_each_flank():
 
 
 def test_the_mean_overlap_counts_pairs_that_nearly_touch():
-    """Gaps of 0.9 % of a diameter count as 0, of 1.1 % not at all; a wall 1 % away from a disk's edge counts no more."""
+    """Gaps of 0.9 % of a diameter count as 0, of 1.1 % not at all; a wall 1 % away from a disk's edge counts no
+    more.
+    """
     x, r = np.array([0.0, 0.98, 1.989, 3.0]), np.full(4, 0.5)
     mean, worst = measures.overlap(x, np.zeros(4), r, [])
     # 0.02, 0 (a gap of 0.009), and one of 0.011 left out
@@ -135,7 +142,8 @@ def test_exponents_of_made_up_laws():
         high.exponent,
     ) == pytest.approx((3.25, 0.7), rel=1e-9)
     assert low.exponent_95 < 1e-6 and low.points == 4
-    # noise of 5 %: the interval holds the truth in about 95 of 100 draws; below 88 or without a miss in 200 something is wrong (4 standard deviations)
+    # noise of 5 %: the interval holds the truth in about 95 of 100 draws; below 88 or without a miss in 200 something
+    # is wrong (4 standard deviations)
     rng = np.random.default_rng(1)
     hits = 0
     for _ in range(200):
@@ -152,8 +160,8 @@ def test_exponents_of_made_up_laws():
 
 
 def test_published_laws_by_hand():
-    """Staron and Hinch (2005): runout 2.5 a below a = 2 and 3.25 a^0.7 above, height a below 0.7 and 0.65 a^0.35 above; Lube et al. (2005): 1.2 a below 2.3, 1.9 a^(2/3); a
-    below 1.15, a^0.4."""
+    """Staron and Hinch (2005): runout 2.5 a below a = 2 and 3.25 a^0.7 above, height a below 0.7 and 0.65 a^0.35 above;
+    Lube et al. (2005): 1.2 a below 2.3, 1.9 a^(2/3); a below 1.15, a^0.4."""
     assert [float(scaling.RUNOUT[0](a)) for a in (1.0, 4.0)] == pytest.approx([2.5, 3.25 * 4**0.7], rel=1e-12)
     assert [float(scaling.RUNOUT[1](a)) for a in (1.0, 8.0)] == pytest.approx([1.2, 1.9 * 4], rel=1e-12)
     assert [float(scaling.HEIGHT[0](a)) for a in (0.5, 4.0)] == pytest.approx([0.5, 0.65 * 4**0.35], rel=1e-12)
@@ -162,7 +170,9 @@ def test_published_laws_by_hand():
 
 
 def test_the_interval_of_an_exponent_is_students():
-    """Logarithms that miss a line by +e, −2e, +e: the slope is the line's, its standard error √(6 e²/1)/√2 times 1/ln 2, and t(0.975, 1) = 12.706."""
+    """Logarithms that miss a line by +e, −2e, +e: the slope is the line's, its standard error √(6 e²/1)/√2 times 1/ln
+    2, and t(0.975, 1) = 12.706.
+    """
     e, a = 0.01, np.array([1.0, 2.0, 4.0])
     found = scaling.fit(a, 3 * a**0.8 * np.exp([e, -2 * e, e]))
     assert (found.exponent, found.factor, found.points) == pytest.approx((0.8, 3.0, 3), rel=1e-9)

@@ -1,4 +1,6 @@
-"""How far a mass has come and fallen, whether its layers have mixed, and where they are turned over, of made-up disks whose answers are known. Needs no YADE."""
+"""How far a mass has come and fallen, whether its layers have mixed, and where they are turned over, of made-up disks
+whose answers are known. Needs no YADE.
+"""
 
 import dataclasses
 import math
@@ -72,7 +74,9 @@ def test_layers_as_they_were_laid_down_are_not_turned_over():
 
 
 def test_a_fold_turns_over_the_part_that_it_covers():
-    """On the left third layers lie 0, 1, 2 and then 2, 1, 0 over them, as in a fold that leans to the right; the rest is as it was. Columns are 6 m wide."""
+    """On the left third layers lie 0, 1, 2 and then 2, 1, 0 over them, as in a fold that leans to the right; the rest
+    is as it was. Columns are 6 m wide.
+    """
     start = square()
     recumbent = np.repeat([0, 1, 2, 2, 1, 0], SIDE * SIDE // 6)
     folded = dataclasses.replace(start, layer=np.where(start.x < 42, recumbent, start.layer))
@@ -117,7 +121,9 @@ def test_the_travel_angle_is_that_of_the_extreme_points():
 
 
 def test_only_the_mass_travels_and_heavy_layers_count_more():
-    """A bed of layer 1, higher and farther than the mass, is left out; of two layers the lower is three times as heavy."""
+    """A bed of layer 1, higher and farther than the mass, is left out; of two layers the lower is three times as
+    heavy.
+    """
     start = synthetic.few([0.0, 10.0, -90.0], [200.0, 180.0, 900.0], layer=[0, 2, 1])
     end = synthetic.few([300.0, 400.0, 9000.0], [60.0, 41.0, 0.0], layer=[0, 2, 1])
     found = travel.travel(start, end, [3000.0, 1.0, 1000.0], mass=[0, 2])

@@ -53,7 +53,9 @@ def made_curve(noise=0.0):
 
 
 def test_a_mean_between_two_strains_counts_what_rows_cover():
-    """Rows of 0.1, 0.2 and 0.3 % of strain: the mean from 0.1 to 0.6 % is two and three parts of the last two; none where the test ends before."""
+    """Rows of 0.1, 0.2 and 0.3 % of strain: the mean from 0.1 to 0.6 % is two and three parts of the last two; none
+    where the test ends before.
+    """
     series = {
         "strain": [0.001, 0.003, 0.006],
         "sigma1_top_Pa": [90.0, 11.0, 21.0],
@@ -76,7 +78,9 @@ def test_curve_measures_peak_plateau_and_dilatancy():
 
 
 def test_a_peak_is_a_mean_over_strain_and_not_over_rows():
-    """Platens that take up their speed make rows that cover little strain; here the first ten cover 0.01 %, all others 0.01 % each."""
+    """Platens that take up their speed make rows that cover little strain; here the first ten cover 0.01 %, all others
+    0.01 % each.
+    """
     strain = np.concatenate((np.arange(1, 11) * 1e-5, np.arange(2, 101) * 1e-4))
     # 8 until 0.05 %, so that 0.2 % from the begin have the mean (5 * 8 + 15 * 2)/20
     stress = np.where(strain < 5.5e-4, 8.0, 2.0)
@@ -138,7 +142,9 @@ def test_cohesion_and_angle_come_back_from_circles(cohesion, friction_deg):
 
 
 def test_misses_are_relative_and_outside_is_positive():
-    """Three circles of one material, the middle one a tenth too strong: it stands out of the line, the others stay inside, and all count alike."""
+    """Three circles of one material, the middle one a tenth too strong: it stands out of the line, the others stay
+    inside, and all count alike.
+    """
     minor = np.array([1e5, 1e6, 1e7])
     major = minor * 3.0 + 2 * 50e3 * math.sqrt(3.0)
     major[1] = minor[1] + 1.1 * (major[1] - minor[1])
@@ -162,7 +168,9 @@ def steps(values, strain):
 
 
 def test_the_plateau_is_a_mean_with_its_error():
-    """Five blocks from 3 % to 6 % of strain at 20 to 24 MPa: standard error √2.5/√5; the sides' mean, and the larger one of the platens' differences."""
+    """Five blocks from 3 % to 6 % of strain at 20 to 24 MPa: standard error √2.5/√5; the sides' mean, and the larger
+    one of the platens' differences.
+    """
     strain = np.arange(1, 601) * 1e-4
     axial = np.concatenate((np.full(299, 40e6), steps([20e6, 21e6, 22e6, 23e6, 24e6], np.arange(301))))
     top, bottom = np.where(strain < 0.03, 1.002, 0.97) * axial, np.where(strain < 0.03, 0.998, 1.03) * axial
@@ -190,7 +198,9 @@ def test_the_plateau_is_a_mean_with_its_error():
 
 
 def test_dilatancy_is_that_of_the_peak():
-    """The volume shrinks before 1.2 % of strain, grows by 0.4 of the strain up to 1.8 %, and no longer then; the peak is at 1.5 %."""
+    """The volume shrinks before 1.2 % of strain, grows by 0.4 of the strain up to 1.8 %, and no longer then; the peak
+    is at 1.5 %.
+    """
     strain = np.arange(1, 601) * 1e-4
     volume = np.interp(strain, [0, 0.012, 0.018, 0.06], [0, -0.002, 0.0004, 0.0004])
     assert strength.curve({**made_curve(), "volumetric_strain": volume}, (0.04, 0.06)).dilatancy_deg == pytest.approx(
@@ -213,7 +223,9 @@ def made_test(stress, strain=None):
 
 
 def test_the_share_of_the_later_peak_is_one_of_means():
-    """10 Pa until 0.4 % of strain, 8 Pa from 0.8 to 1.2 %, 5 Pa elsewhere, and 20 Pa from 3 % on: windows of 0.2 % have these as their largest means."""
+    """10 Pa until 0.4 % of strain, 8 Pa from 0.8 to 1.2 %, 5 Pa elsewhere, and 20 Pa from 3 % on: windows of 0.2 % have
+    these as their largest means.
+    """
     strain = np.arange(1, 401) * 1e-4
     stress = np.full(400, 5.0)
     stress[strain < 0.00405], stress[(strain > 0.00805) & (strain < 0.01205)], stress[strain > 0.03005] = 10, 8, 20
@@ -248,7 +260,9 @@ def test_dilatancy_has_no_sine_beyond_one(rate, angle):
 
 
 def test_two_rows_around_the_peak_have_no_dilatancy():
-    """Rows 0.3 % of strain apart, of which two are within 0.25 % of the peak's middle, and three where rows are 0.15 % apart."""
+    """Rows 0.3 % of strain apart, of which two are within 0.25 % of the peak's middle, and three where rows are 0.15 %
+    apart.
+    """
     for apart, known in ((0.003, False), (0.0015, True)):
         strain = np.arange(1, 1 + round(0.06 / apart)) * apart
         stress = np.where(np.isclose(strain, 0.012), 9.0, 5.0)

@@ -56,7 +56,9 @@ def test_a_run_is_set_beside_its_toe_by_height_and_by_force():
 
 
 def board(dip, volume="disk", length=400.0, thick=20.0, size=1.0):
-    """A rectangular slab on a plane that dips by ``dip`` degrees, to the left where that is negative; its foot is at (30, 7) m."""
+    """A rectangular slab on a plane that dips by ``dip`` degrees, to the left where that is negative; its foot is at
+    (30, 7) m.
+    """
     b, way = math.radians(abs(dip)), 1 if dip >= 0 else -1
     places = [
         (-s * math.cos(b) + n * math.sin(b), s * math.sin(b) + n * math.cos(b))
@@ -74,8 +76,8 @@ def board(dip, volume="disk", length=400.0, thick=20.0, size=1.0):
 @pytest.mark.parametrize("size", [1.0, 0.01])
 @pytest.mark.parametrize("up, down", [(1, 0), (0.9, 0.2), (1, -0.2)])
 def test_a_rectangular_slab_fails_where_a_quadratic_equation_says(dip, volume, size, up, down):
-    """Push and resistance are polynomials of the height h: ½ K u h² + (μ u + v) L h + P(0) − R(0) = 0, with −∇p's parts u along the normal and v down the plane:
-    ``up`` times γ_w cos β and ``down`` times γ_w sin β."""
+    """Push and resistance are polynomials of the height h: ½ K u h² + (μ u + v) L h + P(0) − R(0) = 0, with −∇p's parts
+    u along the normal and v down the plane: ``up`` times γ_w cos β and ``down`` times γ_w sin β."""
     fraction, friction_deg, mu, length, thick, cohesion = 0.8, 35.0, 0.3, 400.0 * size, 20.0 * size, 20e3 * size
     b, k = math.radians(20.0), math.tan(math.radians(45 + friction_deg / 2)) ** 2
     bulk, lift = 2500 * fraction * 9.81, 9810 * math.cos(b) * (fraction if volume == "disk" else 1.0)

@@ -30,8 +30,9 @@ TURNED, TURNED_BACK = 0.3, 0.2  # rad, clockwise and counterclockwise
 
 
 def snapshots(rise=THRUST, back=BACK):
-    """The lowest 300 m of the shipped slope, 65 m thick, with disks of 2 m at random: at rest, and with two bands turned, 12 m and 16 m wide. The first goes through a point 60 m up
-    the slope and 30 m off it, the second through one 150 m up and 20 m off."""
+    """The lowest 300 m of the shipped slope, 65 m thick, with disks of 2 m at random: at rest, and with two bands
+    turned, 12 m and 16 m wide. The first goes through a point 60 m up the slope and 30 m off it, the second through one
+    150 m up and 20 m off."""
     rng = np.random.default_rng(3)
     up, off = rng.uniform(0, 300, 6000), rng.uniform(1, 64, 6000)
     down, normal = np.array(SHIPPED.downslope), np.array(SHIPPED.normal)
@@ -78,8 +79,8 @@ def test_a_mirrored_toe_has_the_mirrored_bands():
 
 
 def test_a_summary_tells_the_bands_of_triggering_and_those_of_weakening_apart(tmp_path):
-    """Of the known run: until t1 (29.1 s), and so until t2, two bands of 28° and 34° turn, which are conjugate by the rule of 10°; after t2, and so from t1 to t3, two others of 22° and 40°,
-    which are not, three times as far."""
+    """Of the known run: until t1 (29.1 s), and so until t2, two bands of 28° and 34° turn, which are conjugate by the
+    rule of 10°; after t2, and so from t1 to t3, two others of 22° and 40°, which are not, three times as far."""
     begin, early = snapshots(28.0, 34.0)
     late = snapshots(22.0, 40.0)[1]
     angles = {"t0": begin.angle, "t1": early.angle, "t2": early.angle, "t3": early.angle + 3.0 * late.angle}

@@ -18,7 +18,9 @@ PLANE = [[-48.0, 36.0], [0.0, 0.0]]  # 60 m, of ten bins of three mean diameters
 
 
 def on_plane(*places, weak=(), apart=1.0, side=1.0, **changes):
-    """Disks of 1 m of radius at distances from the upper end, ``apart`` from the plane; those with the numbers ``weak`` are weakened on it."""
+    """Disks of 1 m of radius at distances from the upper end, ``apart`` from the plane; those with the numbers ``weak``
+    are weakened on it.
+    """
     at = np.array([PLANE[0] + s * DOWN + apart * NORMAL for s in places])
     return synthetic.few(side * at[:, 0], at[:, 1], weakened=np.isin(np.arange(len(places)), weak)[:, None], **changes)
 

@@ -1,4 +1,6 @@
-"""What a section can say besides walls and one rock: interfaces inside it, layers with disks of their own, an erodible bed, obstacles of disks."""
+"""What a section can say besides walls and one rock: interfaces inside it, layers with disks of their own, an erodible
+bed, obstacles of disks.
+"""
 
 import dataclasses
 import json
@@ -158,7 +160,9 @@ def test_an_interface_is_a_slip_surface_like_a_wall(tmp_path):
 
 
 def test_of_two_slip_surfaces_one_above_the_other_each_bears_its_own_weight(tmp_path):
-    """At rest and wet, whatever the table: N of the plane is the weight of both layers, N of the joint that of the upper one, and dp_… are those of the plane alone."""
+    """At rest and wet, whatever the table: N of the plane is the weight of both layers, N of the joint that of the
+    upper one, and dp_… are those of the plane alone.
+    """
 
     def change(data):
         data.update(joint(name="joint", role="slip"), materials=data["materials"])
@@ -290,7 +294,9 @@ def eroded(tmp_path_factory):
 
 
 def _one_more_step(course):
-    """Force [N/m] that changes the momentum of all disks in a step, and what acts on them in it: weight, water, walls; each (x, y)."""
+    """Force [N/m] that changes the momentum of all disks in a step, and what acts on them in it: weight, water, walls;
+    each (x, y).
+    """
     from yade import O
 
     def momentum():

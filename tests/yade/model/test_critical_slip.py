@@ -1,4 +1,6 @@
-"""One critical distance D_c, of slip and of the release from water: the rule where a section says nothing, what is noted, and the option that sets both."""
+"""One critical distance D_c, of slip and of the release from water: the rule where a section says nothing, what is
+noted, and the option that sets both.
+"""
 
 import copy
 import sys
@@ -28,8 +30,8 @@ LOST = None  # no slip surface says it
 
 
 def data(dp=WEAK, other=None, floor=None, joint=None, plane="DP", release=None):
-    """The small slope's data: the law of its plane, a second weak material, of which the floor is (then with this role) or an interface, what the water is measured from,
-    and what it says of the release."""
+    """The small slope's data: the law of its plane, a second weak material, of which the floor is (then with this role)
+    or an interface, what the water is measured from, and what it says of the release."""
     made = section_data.plain(section.load(str(SMALL)))
     for wall in made["walls"]:
         del wall["role"]

@@ -1,4 +1,6 @@
-"""The free surface of layers: which edges no wall holds, which way is in, and the outline raised by a share of the thickness."""
+"""The free surface of layers: which edges no wall holds, which way is in, and the outline raised by a share of the
+thickness.
+"""
 
 import dataclasses
 import math
@@ -44,8 +46,8 @@ def test_a_triangle_as_thin_as_idle_vertices_lie_off_a_line_keeps_its_three():
 
 
 def test_both_sides_of_a_line_with_a_dent_and_a_hump():
-    """From left to right it turns to the left, to the right, and to the left again. What lies above has less than 180° where it turns to the left, what lies below where it turns to the right;
-    ends go on straight."""
+    """From left to right it turns to the left, to the right, and to the left again. What lies above has less than 180°
+    where it turns to the left, what lies below where it turns to the right; ends go on straight."""
     line = np.array([(0.0, 0.0), (3.0, 0.0), (6.0, 4.0), (9.0, 4.0), (9.0, 6.0)])
     above, below = geometry.sides(line)
     assert above.length == pytest.approx([3, 5, 3, 2]) and below.length == pytest.approx([2, 3, 5, 3])
@@ -73,7 +75,9 @@ def test_an_edge_is_cut_where_its_wall_ends():
 
 @pytest.mark.parametrize("name", shipped())
 def test_the_way_in_is_the_gradient_of_the_depth(name):
-    """By differences over 1e-4 of the largest disk, at points of the layers; all but those at the kinks where two faces are equally near."""
+    """By differences over 1e-4 of the largest disk, at points of the layers; all but those at the kinks where two faces
+    are equally near.
+    """
     section = load(name)
     x0, y0, x1, y1 = section.outline.bounds
     x, y = np.random.default_rng(1).random((2, 20000)) * ((x1 - x0,), (y1 - y0,)) + ((x0,), (y0,))
@@ -109,7 +113,9 @@ def test_a_mirrored_slope_has_mirrored_ways():
 
 
 def test_a_raised_surface_is_higher_by_the_share_of_the_thickness_below_it():
-    """Of a tenth: 6.5 m at the foot, where the layers are 65 m thick and FB stands across them, less a disk's way up the surface (its fall of 0.9° on 4 m)."""
+    """Of a tenth: 6.5 m at the foot, where the layers are 65 m thick and FB stands across them, less a disk's way up
+    the surface (its fall of 0.9° on 4 m).
+    """
     found = np.array(geometry.parts(free_surface.raised(SLOPE, 0.1))[0].exterior.coords)
     foot = found[np.argmin(np.hypot(*(found - (23.294, 60.683)).T))]
     along = np.array((23.294, 60.683)) / math.hypot(23.294, 60.683)
@@ -143,7 +149,9 @@ def test_a_line_within_the_layers_is_lifted_by_the_share_of_what_is_below_it():
 
 
 def test_an_outline_has_no_idle_vertices():
-    """Vertices within 2 mm of the line through their neighbours go, of a triangle too; a slit of 1 mm between two layers is closed, one of 10 mm stays."""
+    """Vertices within 2 mm of the line through their neighbours go, of a triangle too; a slit of 1 mm between two
+    layers is closed, one of 10 mm stays.
+    """
     ring = lambda *points: geometry.outline([geometry.Polygon(points)], 1e-3)  # noqa: E731
     vertices = lambda found: [[tuple(v) for v in p.exterior.coords[:-1]] for p in found.geoms]  # noqa: E731
     assert vertices(ring((0, 0), (4, 0.001), (8, 0), (8, 6))) == [[(0, 0), (8, 0), (8, 6)]]
@@ -155,7 +163,9 @@ def test_an_outline_has_no_idle_vertices():
 
 
 def test_the_greatest_depth_is_sought_along_edges_too():
-    """A rim along 8 m, which begins at a free end and has another one 14 m on: 7 m from both at 7 m, an eighth of the edge before its end; the way back has its points elsewhere."""
+    """A rim along 8 m, which begins at a free end and has another one 14 m on: 7 m from both at 7 m, an eighth of the
+    edge before its end; the way back has its points elsewhere.
+    """
     table = geometry.edges(geometry.Polygon([(0, 0), (3, -0.01), (8, 0)]))
     ends = np.array([(0.0, 0.0), (14.0, 0.0)])
     for edges in (table, geometry.edges(geometry.Polygon([(0, 0), (8, 0), (3, 0.01)]))):

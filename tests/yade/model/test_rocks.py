@@ -1,4 +1,6 @@
-"""Rocks that are asked for by cohesion and angle of friction: the law of the table, what is refused, what a run keeps, and what their samples have."""
+"""Rocks that are asked for by cohesion and angle of friction: the law of the table, what is refused, what a run keeps,
+and what their samples have.
+"""
 
 import copy
 import dataclasses
@@ -22,7 +24,9 @@ LOW, HIGH = rocks.interval()
 
 
 def of(**rock):
-    """The small slope with its rock asked for by c = 60 kPa and φ = 34°, and what ``rock`` says besides; None: left out."""
+    """The small slope with its rock asked for by c = 60 kPa and φ = 34°, and what ``rock`` says besides; None: left
+    out.
+    """
     data = section_data.plain(section.load(str(SMALL)))
     asked = {"cohesion": 60e3, "friction_angle": 34, "density": 2500.0, **rock}
     data["materials"]["rock"] = {key: value for key, value in asked.items() if value is not None}
@@ -78,7 +82,9 @@ def test_more_friction_is_a_larger_angle_and_more_cohesion_of_the_same_bonds():
 
 
 def test_the_tables_numbers_follow_from_its_peaks():
-    """The envelope of each sample's circles, and Student's interval of their scatter: 2.7764 with four degrees of freedom."""
+    """The envelope of each sample's circles, and Student's interval of their scatter: 2.7764 with four degrees of
+    freedom.
+    """
     table = rocks.table()
     c, phi = [], []
     for row in table["rocks"]:
@@ -106,7 +112,9 @@ def test_the_tables_numbers_follow_from_its_peaks():
 
 
 def test_what_the_law_misses_is_less_than_samples_scatter():
-    """A rock that is left out of the table: the gap is twice as wide then, and the error of a line about four times as large."""
+    """A rock that is left out of the table: the gap is twice as wide then, and the error of a line about four times as
+    large.
+    """
     table = rocks.table()
     assert table["left_out"] == pytest.approx(rock_table.left_out(table["rocks"]))
     for missed in table["left_out"]:
@@ -231,7 +239,9 @@ def test_a_scene_says_what_its_rock_is_made_of():
 
 
 def test_a_wall_of_the_rock_is_noted():
-    """A wall has the friction of its contacts, exactly (eq. 4), which is much less than the tangent of the rock's angle."""
+    """A wall has the friction of its contacts, exactly (eq. 4), which is much less than the tangent of the rock's
+    angle.
+    """
     data = of()
     data["walls"][0]["material"] = "rock"
     name, friction = data["walls"][0]["name"], rocks.contacts(60e3, 34.0).friction
@@ -280,7 +290,9 @@ def test_another_table_is_another_code(monkeypatch):
 
 
 def circles(entry, seeds, law):
-    """What campaign.measure says of an Entry's tests, where samples fail on the line of c/σ_ext and φ [degrees] that ``law(seed)`` gives."""
+    """What campaign.measure says of an Entry's tests, where samples fail on the line of c/σ_ext and φ [degrees] that
+    ``law(seed)`` gives.
+    """
     unit, found = entry.material.tensile_strength, []
     for test in entry.tests(seeds):
         share, phi = law(test.shape.seed)
@@ -303,7 +315,9 @@ def circles(entry, seeds, law):
 
 
 def made_up(seeds=(1, 2, 3)):
-    """A table of three rocks on the law's own lines, φ = 40° + 10° ln(μ_s/0.3) and c/σ_ext = μ_s, whose samples differ by ±5 % and ±1°."""
+    """A table of three rocks on the law's own lines, φ = 40° + 10° ln(μ_s/0.3) and c/σ_ext = μ_s, whose samples differ
+    by ±5 % and ±1°.
+    """
     angle = lambda mu: 40 + 10 * math.log(mu / 0.3)  # noqa: E731
     found = [
         rock_table.row(
@@ -403,13 +417,16 @@ def angle_of(friction):
 
 
 def test_the_table_gives_the_papers_rock_back():
-    """Asked for what five samples of 5,000 disks of Table 1 have, c and φ: σ_ext = 100 kPa and μ_s = 0.3, within the interval that the table states."""
+    """Asked for what five samples of 5,000 disks of Table 1 have, c and φ: σ_ext = 100 kPa and μ_s = 0.3, within the
+    interval that the table states.
+    """
     found = measured("table1")["rock"]
     asked = 1e3 * found["cohesion_peak_kPa"], found["friction_peak_deg"]
     made = rocks.contacts(*asked)
     assert made.tensile_strength == pytest.approx(100e3, rel=made.cohesion_95_rel)
     assert angle_of(0.3) == pytest.approx(asked[1], abs=made.friction_angle_95_deg)
-    # under the table's own pressures but the lowest one, as Table 1 has them, no curvature is between: both means are known to their 95 %
+    # under the table's own pressures but the lowest one, as Table 1 has them, no curvature is between: both means are
+    # known to their 95 %
     fits = []
     for seed in found["seeds"]:
         tests = [t for t in found["tests"] if t["seed"] == seed and t["confining_Pa"] in (0.25e6, 1e6, 4e6)]
@@ -421,7 +438,9 @@ def test_the_table_gives_the_papers_rock_back():
 
 @pytest.mark.parametrize("k", range(6))
 def test_rocks_that_were_calibrated_are_those_of_the_table(k):
-    """Trials of a search, 1,500 and 5,000 disks, two samples that the table does not know: each has the strengths that the table's law gives its contacts, within what one sample may differ by."""
+    """Trials of a search, 1,500 and 5,000 disks, two samples that the table does not know: each has the strengths that
+    the table's law gives its contacts, within what one sample may differ by.
+    """
     trial = measured("calibration")["trials"][k]
     cohesion, angle = trial["found"]
     made = rocks.contacts(cohesion, angle)
@@ -430,8 +449,9 @@ def test_rocks_that_were_calibrated_are_those_of_the_table(k):
 
 
 def test_a_sample_of_a_rock_that_was_asked_for_has_its_strengths(tmp_path):
-    """Biaxial tests of a material file with c and φ under the lowest and the highest pressure of the table, of a sample of as many disks that the table does not know, sheared past its first
-    maximum, which is at 0.12 % of strain: both within the stated interval."""
+    """Biaxial tests of a material file with c and φ under the lowest and the highest pressure of the table, of a sample
+    of as many disks that the table does not know, sheared past its first maximum, which is at 0.12 % of strain: both
+    within the stated interval."""
     path = tmp_path / "asked.yaml"
     path.write_text("{cohesion: 60e3, friction_angle: 34, density: 2500}")
     rock, known = materials.load(path), rocks.contacts(60e3, 34.0)

@@ -82,7 +82,9 @@ def test_vectors_and_water(section):
 
 @pytest.mark.parametrize("dip", [-35.0, 0.0, 21.0, 80.0])
 def test_water_that_flows_along_the_plane_lifts_and_drags(section, dip):
-    """Paper, 3.4 and Figure 4: buoyancy, γ_w upwards, and seepage, γ_w sin β down the plane; together they are along its normal."""
+    """Paper, 3.4 and Figure 4: buoyancy, γ_w upwards, and seepage, γ_w sin β down the plane; together they are along
+    its normal.
+    """
     water = dataclasses.replace(section.water, dip=dip)
     b = math.radians(dip)
     down, normal = np.array([math.cos(b), -math.sin(b)]), np.array(
@@ -140,7 +142,9 @@ def test_sizes_by_quantile(distribution, median):
 
 
 def test_the_smallest_and_the_largest_disk_are_of_all_layers(section):
-    """The shipped section has disks of 1 to 4 m; layers may have smaller and larger ones of their own, and where all have, the section's count no longer."""
+    """The shipped section has disks of 1 to 4 m; layers may have smaller and larger ones of their own, and where all
+    have, the section's count no longer.
+    """
     of = lambda low, high: dataclasses.replace(section.disks, d_min=low, d_max=high)  # noqa: E731
     own = lambda **sizes: dataclasses.replace(  # noqa: E731
         section,
@@ -425,7 +429,9 @@ def test_bad_values(case, refused):
 @pytest.mark.parametrize("turned", [False, True])
 @pytest.mark.parametrize("first", [False, True])
 def test_a_wall_may_begin_within_another(first, turned):
-    """At one of its inner vertices, whichever of the two stands first and from whichever end; a step away from there it leaves a hole."""
+    """At one of its inner vertices, whichever of the two stands first and from whichever end; a step away from there it
+    leaves a hole.
+    """
     data = section_data.plain(load("jiufengershan"))
     top, foot = data["walls"][0]["vertices"]
     middle = [top[0] / 2, top[1] / 2]

@@ -104,7 +104,9 @@ def test_no_key_has_two_answers_and_none_is_a_key():
 
 
 def test_the_height_for_a_pore_pressure_ratio():
-    """The sentence's h gives u = r_u γ z on the plane: u is the gradient along the normal times h, z the thickness H / cos β."""
+    """The sentence's h gives u = r_u γ z on the plane: u is the gradient along the normal times h, z the thickness H /
+    cos β.
+    """
     slope = load("jiufengershan")
     ru, rock, thickness, dip = 0.3, 22e3, 50.0, math.radians(slope.dip)
     h = ru * rock * thickness / (slope.water.unit_weight * math.cos(dip) ** 2)

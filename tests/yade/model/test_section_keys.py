@@ -1,4 +1,6 @@
-"""Every key of a section file is followed to where it acts: a changed value is found there. The list of keys is the schema's, so that a new one without a test fails."""
+"""Every key of a section file is followed to where it acts: a changed value is found there. The list of keys is the
+schema's, so that a new one without a test fails.
+"""
 import copy
 import math
 from dataclasses import dataclass
@@ -17,7 +19,8 @@ from yade.wrapper import NewtonIntegrator, NonsmoothTimeStepper, PlanarGridColli
 
 SCHEMA = yaml.safe_load((section.FOLDER / "section.schema.yaml").read_text())
 
-# A block of seven bonded disks on the plane, which the water pushes down it, as hard as makes 3 m/s², for half a metre; friction then brings it to rest within two seconds.
+# A block of seven bonded disks on the plane, which the water pushes down it, as hard as makes 3 m/s², for half a metre;
+# friction then brings it to rest within two seconds.
 CHANGED = {
     # a push that no water has, and strengths that do nothing
     ("unusual",): [
@@ -197,8 +200,8 @@ BASE = data()
 
 OF_TABLE = {(*ROCK,): {"cohesion": 2e3, "friction_angle": 34.0, "density": 2500.0}}
 
-#: key: changes, where they are found, and what is found there; a list where a key acts in several places or takes several kinds of values.
-#: The last item, where there is one, is how far the slope is run [s], None: to its end.
+#: key: changes, where they are found, and what is found there; a list where a key acts in several places or takes
+#: several kinds of values. The last item, where there is one, is how far the slope is run [s], None: to its end.
 WHERE = {
     # and in summary.json, see test_whole_slope
     ("name",): ({("name",): "another"}, lambda m: m.section.name, "another"),
@@ -422,7 +425,8 @@ WHERE = {
         lambda m: (1.2 <= 2 * radii(m).min() < 1.22, 1.78 < 2 * radii(m).max() <= 1.8),
         (True, True),
     ),
-    # by volume the median is 2 a b/(a + b) = 1.33 m, by number 1.5 m; the median of some 80 disks at even quantiles is within 2 % of it
+    # by volume the median is 2 a b/(a + b) = 1.33 m, by number 1.5 m; the median of some 80 disks at even quantiles is
+    # within 2 % of it
     ("disks", "distribution"): [
         ({("disks", "distribution"): kind}, lambda m: 2 * np.median(radii(m)), pytest.approx(median, rel=0.02))
         for kind, median in (("uniform_by_number", 1.5), ("uniform_by_volume", 4 / 3))

@@ -1,4 +1,6 @@
-"""Values in another unit than a section's are refused with what they would be; what is meant all the same is taken. Needs no YADE."""
+"""Values in another unit than a section's are refused with what they would be; what is meant all the same is taken.
+Needs no YADE.
+"""
 
 import math
 import sys
@@ -77,7 +79,9 @@ def test_a_density_of_water_is_told_up_to_the_heaviest_fluids():
 
 @pytest.mark.parametrize("name", section.shipped())
 def test_bounds_go_with_the_size_of_a_slope(name):
-    """What a slope of metres may have is no kPa: strengths are set beside its weight, and the shipped sections are slopes at all sizes and on the moon."""
+    """What a slope of metres may have is no kPa: strengths are set beside its weight, and the shipped sections are
+    slopes at all sizes and on the moon.
+    """
     shipped = section.load(name)
     for factor in (1e-4, 0.01, 10.0):
         similar.scaled(shipped, factor)

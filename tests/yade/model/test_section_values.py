@@ -1,5 +1,5 @@
-"""A value that is changed in a section gives what a file with this value gives, whatever follows from it and however it is changed: key by key of the schema, by
-campaigns, after --disks, in a mirror and at another size."""
+"""A value that is changed in a section gives what a file with this value gives, whatever follows from it and however it
+is changed: key by key of the schema, by campaigns, after --disks, in a mirror and at another size."""
 
 import argparse
 import copy

@@ -354,7 +354,9 @@ def test_packing_fraction_of_a_known_lattice():
 
 
 def test_overlaps_by_hand():
-    """A pair with a tenth of its mean diameter in common, one with a gap of 1 % that counts as none, and one of 3 % that does not count at all."""
+    """A pair with a tenth of its mean diameter in common, one with a gap of 1 % that counts as none, and one of 3 %
+    that does not count at all.
+    """
     rows = Packing([0.0, 1.8, 6.0, 8.02, 12.0, 14.06], [0.0] * 6, [1.0] * 6, [0] * 6)
     found = packing.overlaps(rows)
     assert (found.worst, found.mean, found.pairs) == (pytest.approx(0.1, rel=1e-9), pytest.approx(0.05, rel=1e-9), 2)
@@ -425,7 +427,9 @@ def test_a_box_lies_along_the_longest_edge():
 
 
 def test_disks_are_drawn_one_from_each_part_of_the_sizes(bent):
-    """Of n disks of a layer the k-th in size lies in the k-th n-th of the distribution; all of them begin within their layer."""
+    """Of n disks of a layer the k-th in size lies in the k-th n-th of the distribution; all of them begin within their
+    layer.
+    """
     x, y, r, layer = packing._draw(bent, np.random.default_rng(7))
     assert np.bincount(layer).tolist() == list(bent.disk_counts())
     for k, one in enumerate(bent.layers):
@@ -437,7 +441,9 @@ def test_disks_are_drawn_one_from_each_part_of_the_sizes(bent):
 
 
 def test_forces_of_overlapping_disks_by_hand(bent):
-    """Two disks 0.2 m into each other along (0.6, 0.8), the first one 0.1 m into the floor: unit stiffness between disks, two at walls."""
+    """Two disks 0.2 m into each other along (0.6, 0.8), the first one 0.1 m into the floor: unit stiffness between
+    disks, two at walls.
+    """
     box = geometry.edges(geometry.Polygon([(-9, 0), (9, 0), (9, 9), (-9, 9)]))
     x, y, r = np.array([0.0, 1.08, 5.0]), np.array([0.9, 2.34, 5.0]), np.ones(3)
     one = packing._Relaxer(x, y, r, np.zeros(3, int), [(box, None)], np.random.default_rng(1))
@@ -454,7 +460,9 @@ def test_forces_of_overlapping_disks_by_hand(bent):
 
 
 def test_the_more_squeezed_larger_one_changes_places():
-    """Radii 1, 1.5, 3 and 4 m, in pairs of like size: the first pair changes places, since its larger disk is squeezed by more than it is larger; the other one is of two layers."""
+    """Radii 1, 1.5, 3 and 4 m, in pairs of like size: the first pair changes places, since its larger disk is squeezed
+    by more than it is larger; the other one is of two layers.
+    """
 
     class Dice:
         def __init__(self):
@@ -488,7 +496,9 @@ def test_mirrored_and_similar_sections_have_the_mirrored_and_similar_disks(bent)
 
 
 def test_disks_do_not_cross_a_flat_interface():
-    """A flat interface is a wall for the disks on either side: none reaches over it by more than a thousandth of its diameter."""
+    """A flat interface is a wall for the disks on either side: none reaches over it by more than a thousandth of its
+    diameter.
+    """
     three = dataclasses.replace(load("interface"), pressed=False).with_disks(1500)
     made = packing.pack(three, 1)
     flat = [interface for interface in three.interfaces if interface.flat]
@@ -507,7 +517,9 @@ def test_disks_do_not_cross_a_flat_interface():
 
 
 def test_a_flat_interface_bounds_the_disks_on_either_side():
-    """Its upper side holds those of the layer above, its lower side those below; raised by the share that pressing takes, it is a little higher. One that is not flat bounds none."""
+    """Its upper side holds those of the layer above, its lower side those below; raised by the share that pressing
+    takes, it is a little higher. One that is not flat bounds none.
+    """
     three = dataclasses.replace(load("interface"), pressed=False)
     layer = np.arange(len(three.layers))
     ((lower, upper),) = (three.numbers_of(i) for i in three.interfaces)

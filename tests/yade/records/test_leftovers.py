@@ -1,4 +1,6 @@
-"""A slope that was killed while files were being written: a resume goes on with the same bits, draws what is whole, and nothing half-written is left."""
+"""A slope that was killed while files were being written: a resume goes on with the same bits, draws what is whole, and
+nothing half-written is left.
+"""
 
 import dataclasses
 
@@ -132,7 +134,9 @@ def test_a_file_that_no_run_has_left_is_neither_removed_nor_written_over(small, 
 
 
 def test_files_of_a_user_beside_those_of_a_run_stay(small, tmp_path):
-    """In the folder of a run its own files go; what has other names stays, also in the folders of snapshots and of ParaView's files."""
+    """In the folder of a run its own files go; what has other names stays, also in the folders of snapshots and of
+    ParaView's files.
+    """
     run(small, tmp_path, 0.3)
     put(tmp_path, "forces.png", "vtk/disks-00000100.vtu", "snapshots/00000001.npz")
     mine = ("mine.txt", "vtk/mine.vtu", "snapshots/best.npz", "snapshots/12345.npz")

@@ -1,4 +1,6 @@
-"""Slip surfaces one above another: which is lowest, what each bears, and what columns, times and figures tell of each. Needs no YADE."""
+"""Slip surfaces one above another: which is lowest, what each bears, and what columns, times and figures tell of each.
+Needs no YADE.
+"""
 
 import copy
 
@@ -74,7 +76,9 @@ def test_a_surface_lies_above_those_below_it(lines, found):
 
 
 def test_the_part_of_a_polygon_beside_a_line():
-    """A box of 4 m that a line parts in the middle, one that lies below it and one above; the line ends between the sides of the first."""
+    """A box of 4 m that a line parts in the middle, one that lies below it and one above; the line ends between the
+    sides of the first.
+    """
     boxes = [box(0, low, 10, low + 4) for low in (0, -5, 5)]
     whole, half = line((0, 2), (10, 2)), line((5, 2), (0, 2))
     assert stacks.part_beside(boxes, [whole]) == pytest.approx([0.5, 0, 1])
@@ -125,7 +129,9 @@ def test_a_column_of_a_surface_is_read_as_it_was_written(tmp_path):
 
 
 def stacked_series(**weakened):
-    """The known slope's series, whose dp_… are those of the lower joint; the upper one bears a third of its shear, which falls within 1 s, 4 s later. ``weakened``: from when [s]."""
+    """The known slope's series, whose dp_… are those of the lower joint; the upper one bears a third of its shear,
+    which falls within 1 s, 4 s later. ``weakened``: from when [s].
+    """
     series = known_slope.series()
     t = series["time_s"]
     for name, surface in (("lower", "lower"), ("upper", "upper, weak")):
@@ -142,7 +148,8 @@ def test_times_are_of_the_surface_that_weakens_first():
     of = lambda **when: characteristic_times.of_run(rows(**when), made, STATE)  # noqa: E731
     begins = lambda **when: characteristic_times.weakening_begins(rows(**when), made, STATE)  # noqa: E731
     assert begins(lower=33.0, upper=40.0) == 33.0 and begins(lower=40.0, upper=33.0) == 33.0 and begins() is None
-    # the lower one's mean over what counts as a second for a slope of this size has fallen by 90 % at 39 s, the upper one's at 44 s
+    # the lower one's mean over what counts as a second for a slope of this size has fallen by 90 % at 39 s, the upper
+    # one's at 44 s
     second = synthetic.load("model.scales").of(made).mean_seconds
     assert 38.6 - 0.11 <= of(lower=33.0, upper=40.0)["t3"] <= 38.6 + second + 0.11
     assert 43.9 - 0.11 <= of(lower=40.0, upper=33.0)["t3"] <= 43.9 + second + 0.11

@@ -1,4 +1,6 @@
-"""Runs side by side: what is kept, what is removed, in what order they run, and what a failure says. The processes are made up."""
+"""Runs side by side: what is kept, what is removed, in what order they run, and what a failure says. The processes are
+made up.
+"""
 
 import json
 import threading

@@ -1,4 +1,6 @@
-"""The folder of a run of any study, opened: its kind, declared columns, snapshots and numbers. Of made-up folders; needs no YADE."""
+"""The folder of a run of any study, opened: its kind, declared columns, snapshots and numbers. Of made-up folders;
+needs no YADE.
+"""
 
 import json
 

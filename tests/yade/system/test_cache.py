@@ -1,4 +1,6 @@
-"""The cache: what is kept comes back to the bit, what is damaged is made anew and said to be, what is old can be cleared. Needs no YADE."""
+"""The cache: what is kept comes back to the bit, what is damaged is made anew and said to be, what is old can be
+cleared. Needs no YADE.
+"""
 
 import os
 import sys
@@ -216,7 +218,9 @@ def test_a_cache_that_cannot_be_written_is_one_message(home):
 
 
 def test_makers_at_the_same_time_all_get_it_whole(home):
-    """Each of four finds none, since the barrier holds them all in the making, and a fifth that reads all the while meets none or a whole one."""
+    """Each of four finds none, since the barrier holds them all in the making, and a fifth that reads all the while
+    meets none or a whole one.
+    """
     path, found, seen, over = CACHE.path(KEY), [], [], threading.Event()
     together = threading.Barrier(4, timeout=60)
 

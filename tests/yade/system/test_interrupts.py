@@ -1,4 +1,6 @@
-"""Ctrl-C: one line and the status 130, from every command and at whatever moment it comes; what has ended is kept, and runs go on with the same bytes."""
+"""Ctrl-C: one line and the status 130, from every command and at whatever moment it comes; what has ended is kept, and
+runs go on with the same bytes.
+"""
 
 import json
 import os
@@ -84,7 +86,9 @@ def test_ctrl_c_ends_every_command_with_one_line_and_status_130(tmp_path, name, 
 
 
 def test_ctrl_c_ends_runs_side_by_side_with_their_checkpoints(tmp_path):
-    """A command that alone is told hands it on; the tests then go on where they were, with the bytes of undisturbed ones."""
+    """A command that alone is told hands it on; the tests then go on where they were, with the bytes of undisturbed
+    ones.
+    """
     options = (
         "--disks",
         150,

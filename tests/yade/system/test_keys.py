@@ -68,7 +68,8 @@ def test_other_code_or_engines_make_their_own(cache, monkeypatch):
     module, path = CACHES[cache]
     whole, behind, before = keys.statements, keys.made_by(module.__name__), path()
     assert path() == before
-    # what gives disks their masses is behind all of them: it was forgotten twice; as were borders of regions and sweeps of a packing
+    # what gives disks their masses is behind all of them: it was forgotten twice; as were borders of regions and sweeps
+    # of a packing
     own = Path(module.__file__).resolve().relative_to(keys.HOME).as_posix()
     wanted = {own, "packing/__init__.py", "model/geometry.py", "model/section/section.py"}
     wanted |= {"world/scene.py"} if cache != "packings" else set()
@@ -127,7 +128,9 @@ FILES = {
 
 
 def test_imports_are_followed_wherever_they_stand(package):
-    """Relative and absolute ones, in functions, in a circle, packages on the way, what they import when asked, functions that a process calls, and data; nothing else."""
+    """Relative and absolute ones, in functions, in a circle, packages on the way, what they import when asked,
+    functions that a process calls, and data; nothing else.
+    """
     package(FILES)
     assert set(keys.made_by("made:run")) == set(FILES) - {"__init__.py", "deep/other.py", "apart.py", "page.html.j2"}
     assert set(keys.made_by("work")) == {"work.py"}

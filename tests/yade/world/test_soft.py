@@ -1,4 +1,6 @@
-"""Soft counterparts of a material: their thresholds against the hard law's, bonds contact by contact, walls, the step's limit, the way back."""
+"""Soft counterparts of a material: their thresholds against the hard law's, bonds contact by contact, walls, the step's
+limit, the way back.
+"""
 import dataclasses
 import math
 import random
@@ -66,7 +68,9 @@ class SoftPair:
         O.forces.setPermT(self.free, (0, 0, torque - RADIUS * shear))
 
     def threshold(self, loads, yields, steps=8000):
-        """x at which `yields(contact)` becomes true, None (contact lost) included: loads grow to those of x = 0, then x to 1.2."""
+        """x at which `yields(contact)` becomes true, None (contact lost) included: loads grow to those of x = 0, then x
+        to 1.2.
+        """
         for k in range(steps // 4):
             self.load(**{key: value * 4 * k / steps for key, value in loads(0).items()})
             O.step()
@@ -93,7 +97,8 @@ def yields(contact):
     )
 
 
-#: Loads of verification.bonds: each mode alone, shear and torque under compression and under tension, and shear with torque.
+#: Loads of verification.bonds: each mode alone, shear and torque under compression and under tension, and shear with
+#: torque.
 LOADS = list(cases(F_A, FRICTION, ROLLING))
 
 
@@ -116,7 +121,8 @@ def test_a_ductile_bond_yields_where_the_hard_one_does_and_holds(name):
     print(f"ductile, {name}: hard {hard:.6f}, soft {found:.6f} of the derived threshold")
     assert found == pytest.approx(hard, rel=RAMP)
     pair.load(**loads(1.05))
-    # 20 steps under 5 % too much move the disk by some 1e-4 ℓ, far less than the ellipse's 2e-2: it yields on, and bears no more than the threshold
+    # 20 steps under 5 % too much move the disk by some 1e-4 ℓ, far less than the ellipse's 2e-2: it yields on, and
+    # bears no more than the threshold
     begin = O.bodies[pair.free].state.pos
     for _ in range(20):
         O.step()
@@ -176,7 +182,9 @@ def test_a_bond_over_a_gap_is_born_without_force_and_breaks_at_the_same_load():
 
 
 def row_breaks(strength, count=8, steps=10000):
-    """Whether a bond of a horizontal row held at one end breaks under a growing weight; F_a = `strength` weights of a disk."""
+    """Whether a bond of a horizontal row held at one end breaks under a growing weight; F_a = `strength` weights of a
+    disk.
+    """
     weight = ROCK.density * math.pi * RADIUS**2 * 9.81
     e = parameters(rock=dataclasses.replace(ROCK, tensile_strength=strength * weight / LENGTH), damping=0.8)
     O.reset()
@@ -313,7 +321,9 @@ def test_damping_slows_a_fall_as_stated():
 
 
 def growth(e, factor, places):
-    """Largest speed of bonded disks after 2,000 steps of `factor` times the limit, by that at the beginning; no damping."""
+    """Largest speed of bonded disks after 2,000 steps of `factor` times the limit, by that at the beginning; no
+    damping.
+    """
     O.reset()
     O.materials.append(soft.material(e))
     for k, place in enumerate(places):
@@ -461,9 +471,10 @@ def test_the_description_has_every_attribute_that_the_material_sets(model):
         )
 
 
-#: Ways to move the free disk about the fixed one, by their progress x: (gap, angle of the centre, turn of the disk) [m, rad, rad] at x = 1, a
-#: multiple of the way to the ellipse's edge, and the force and torque that the bond bears on it, as parts of F_a, μ_s F_a and μ_r ℓ F_a. A disk that
-#: turns by twice the angle of its centre rolls, by the angle itself slides and turns. Where tension yields, N = −F_a leaves nothing of the others.
+#: Ways to move the free disk about the fixed one, by their progress x: (gap, angle of the centre, turn of the disk) [m,
+#: rad, rad] at x = 1, a multiple of the way to the ellipse's edge, and the force and torque that the bond bears on it,
+#: as parts of F_a, μ_s F_a and μ_r ℓ F_a. A disk that turns by twice the angle of its centre rolls, by the angle itself
+#: slides and turns. Where tension yields, N = −F_a leaves nothing of the others.
 WAYS = {
     "tension": ((0.04, 0.0, 0.0), (1, 0, 0)),
     "shear": ((0.0, 0.06, 0.0), (0, 1, 0)),
@@ -476,8 +487,9 @@ ZONE = (0.02, 0.03)
 
 
 def mark(gap, angle, turn):
-    """Where the marked point lies from its first place, along the first normal and tangent: that of the free disk which touched the fixed one, in units of
-    ε_n ℓ and ε_t ℓ. Independent of the engine's way to reckon it, which has bodies' positions and rotations.
+    """Where the marked point lies from its first place, along the first normal and tangent: that of the free disk which
+    touched the fixed one, in units of ε_n ℓ and ε_t ℓ. Independent of the engine's way to reckon it, which has bodies'
+    positions and rotations.
     """
     x = (LENGTH + gap) * math.cos(angle) - RADIUS * math.cos(turn) - RADIUS
     y = (LENGTH + gap) * math.sin(angle) - RADIUS * math.sin(turn)
@@ -519,7 +531,8 @@ def test_a_ductile_bond_yields_and_breaks_where_the_hard_one_does(way):
         O.step()
     # both sides: to the one step in which it leaves the ellipse
     assert (k - 1) / steps - 1e-9 <= edge <= k / steps + 1e-9
-    # yield is exact in YADE's law; what is not loaded is rounding of the places, 1e-16 m times 5e8 N/m, or what is left of T and Γ when tension yields
+    # yield is exact in YADE's law; what is not loaded is rounding of the places, 1e-16 m times 5e8 N/m, or what is left
+    # of T and Γ when tension yields
     wanted = tension * F_A, shear * FRICTION * F_A, torque * ROLLING * LENGTH * F_A
     assert borne == pytest.approx(wanted, rel=1e-6, abs=1e-4 * F_A)
     assert O.engines[-2].broken == 1 and O.engines[-2].count == 0

@@ -35,7 +35,9 @@ pytestmark = pytest.mark.usefixtures("empty")
 
 
 def begin(disks, gravity=(0, 0, 0), wall=False, world=WORLD, ground=GROUND):
-    """Disks (x, y, r) of one rock, above a wall of ``ground`` along x if asked for; returns the Measures and the ids of the disks."""
+    """Disks (x, y, r) of one rock, above a wall of ``ground`` along x if asked for; returns the Measures and the ids of
+    the disks.
+    """
     rock, ground = (O.materials[O.materials.append(m)] for m in (world.material(ROCK), world.wall_material(ground)))
     if wall:
         O.bodies.append(scene.segments([(-50, 0), (50, 0)], ground, sense=1))
@@ -47,7 +49,9 @@ def begin(disks, gravity=(0, 0, 0), wall=False, world=WORLD, ground=GROUND):
 @pytest.mark.parametrize("wall", [True, False])
 @pytest.mark.parametrize("way", [1, -1])
 def test_forces_are_those_on_the_second_body(wall, way):
-    """The only contact of a disk that slides to one side: what it feels, along the normal and along that turned by +90°."""
+    """The only contact of a disk that slides to one side: what it feels, along the normal and along that turned by
+    +90°.
+    """
     seen, ids = begin([(0, 0.499, 0.5)] if wall else [(0, 0, 0.8), (0, 1.299, 0.5)], wall=wall)
     second = ids[-1]
     O.bodies[second].state.vel = (0.3 * way, 0, 0)
@@ -114,7 +118,9 @@ def broken(seen):
     ],
 )
 def test_a_bond_is_counted_by_how_it_broke(model, other, velocity, spin, mode):
-    """A disk goes from the disk or the wall below it, to which it is bonded, by a given motion; looked at in every step. JCFpm's bonds of disks have no torque."""
+    """A disk goes from the disk or the wall below it, to which it is bonded, by a given motion; looked at in every
+    step. JCFpm's bonds of disks have no torque.
+    """
     world = worlds.Soft(stiffness=1e8, diameter=(1.0, 1.6), damping=0.0, model=model)
     seen, ids = begin(
         [(0, 0, 0.5), (0, 1.0, 0.5)] if other == "disk" else [(0, 0.5, 0.5)],
@@ -179,8 +185,8 @@ OF_JOINTS = dict(FnMax=F_A, FsMax=300.0, tanFrictionAngle=0.3)
     ids=["disks", "walls", "jcfpm"],
 )
 def test_a_mode_is_the_threshold_that_is_nearest(made, has_torque):
-    """F_a = 1000 N, μ = 0.3 and an arm of 0.1 m: under a compression N the thresholds are μ (F_a + N) and 0.1 m (F_a + N), tension has F_a. Of the shares of each the largest counts, from
-    a half on."""
+    """F_a = 1000 N, μ = 0.3 and an arm of 0.1 m: under a compression N the thresholds are μ (F_a + N) and 0.1 m (F_a +
+    N), tension has F_a. Of the shares of each the largest counts, from a half on."""
     bond = made()
     for loads, mode in (
         ((-510, 0, 0), "tension"),
@@ -227,7 +233,9 @@ def test_a_contact_of_another_law_has_no_mode():
 
 # ---- contacts and overlaps ------------------------------------------------------------------------
 def test_overlaps_are_of_contacts_that_touch():
-    """One pair overlaps by 1 % of its mean diameter, 1.3 m, one by 2 % of 1 m; a bond over a gap bears nothing and is none. Their mean is 1.5 %."""
+    """One pair overlaps by 1 % of its mean diameter, 1.3 m, one by 2 % of 1 m; a bond over a gap bears nothing and is
+    none. Their mean is 1.5 %.
+    """
     seen, ids = begin([(0, 0, 0.8), (1.3 * 0.99, 0, 0.5), (5, 0, 0.5), (5.98, 0, 0.5), (10, 0, 0.5), (11.005, 0, 0.5)])
     for k in ids:
         O.bodies[k].state.blockedDOFs = "xyzXYZ"

@@ -55,8 +55,8 @@ def breaks_at(body, steps=8000, **most):
 
 @pytest.mark.parametrize("of_wall, ratio", [(E, 0.3), (3 * E, 0.3), (E, 0.7)])
 def test_springs_at_a_wall_are_force_over_displacement(of_wall, ratio):
-    """A bond that is strained by given motions, each below its threshold. Paired as YADE pairs disks: k_n = 2 R E₁ E₂/(E₁ + E₂), E R for equal ones; k_s is ``ratio`` times that; and
-    k_r = k_s R²."""
+    """A bond that is strained by given motions, each below its threshold. Paired as YADE pairs disks: k_n = 2 R E₁
+    E₂/(E₁ + E₂), E R for equal ones; k_s is ``ratio`` times that; and k_r = k_s R²."""
     k_n = 2 * RADIUS * E * of_wall / (E + of_wall)
     k_s = ratio * k_n
     k_r, steps = k_s * RADIUS**2, 20
@@ -141,11 +141,13 @@ def test_a_wall_weakens_after_the_same_slip_in_both_worlds():
         weak = int(np.argmax(slip > 0.05))
         before = np.polyfit(time[2:weak], speed[2:weak], 1)[0]
         after = np.polyfit(time[weak + 2 :], speed[weak + 2 :], 1)[0]
-        # friction 0.3 until the slip is D_c, 0.1 from then on; an undamped soft contact swings, and loses up to 2 % at joints
+        # friction 0.3 until the slip is D_c, 0.1 from then on; an undamped soft contact swings, and loses up to 2 % at
+        # joints
         assert before == pytest.approx(4.0 - 0.3 * 9.81, rel=0.05)
         assert after == pytest.approx(4.0 - 0.1 * 9.81, rel=0.03)
     weak_hard, weak_soft = (rows[np.argmax(rows[:, 1] > 0.05), 0] for rows in (hard, gentle))
-    # until the spring is pressed in there is no friction: a lead of μ g/ω = 6 mm/s, which is 2 % of the time, and a row is as much
+    # until the spring is pressed in there is no friction: a lead of μ g/ω = 6 mm/s, which is 2 % of the time, and a row
+    # is as much
     assert weak_soft == pytest.approx(weak_hard, rel=0.04)
 
 

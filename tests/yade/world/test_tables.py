@@ -14,7 +14,9 @@ ROUNDING = 1e-12  # of an angle that comes back from a quaternion
 
 @pytest.fixture
 def corner():
-    """Two disks in a corner, pressed into it by an oblique gravity and turning, after some steps: ids of the floor, of the side, and of the first disk."""
+    """Two disks in a corner, pressed into it by an oblique gravity and turning, after some steps: ids of the floor, of
+    the side, and of the first disk.
+    """
     O.reset()
     stuff = material(0.3, 0.1)
     floor, side = (
@@ -105,7 +107,9 @@ def test_loaded_contacts_name_disks_and_walls(corner):
 
 @pytest.mark.parametrize("owned", [False, True], ids=["from the bodies", "from the arrays"])
 def test_rows_of_many_bodies_with_gaps(owned):
-    """More than threads take at a time, with bodies that are no disks or gone between them; each moves in its own way."""
+    """More than threads take at a time, with bodies that are no disks or gone between them; each moves in its own
+    way.
+    """
     O.reset()
     stuff = material(0.3, 0.1)
     made = []

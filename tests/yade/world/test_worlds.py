@@ -55,7 +55,9 @@ def test_disk_rests_on_the_wall(world):
 
 
 def test_the_margin_of_the_collider_goes_with_the_smallest_disk():
-    """0.6 of its radius where nothing else is said: a number below 0 is in radii, one above 0 in metres, which would be another margin at another size."""
+    """0.6 of its radius where nothing else is said: a number below 0 is in radii, one above 0 in metres, which would be
+    another margin at another size.
+    """
     hard = worlds.Hard(time_step=1e-3)
     collider = next(e for e in hard.engines() if isinstance(e, wrapper.Collider))
     assert (collider.verletDist, hard.verlet, WORLDS[1].verlet) == (-0.6, -0.6, -0.6)
@@ -69,7 +71,9 @@ def test_pairs_are_bonded(world):
 
 @pytest.mark.parametrize("world", WORLDS, ids=lambda w: w.name)
 def test_disk_slides_on_the_wall(world):
-    """tan 45° > 3 μ for a disk that may roll: it slides with g (sin θ − μ cos θ), less what YADE's damping of the forces takes."""
+    """tan 45° > 3 μ for a disk that may roll: it slides with g (sin θ − μ cos θ), less what YADE's damping of the
+    forces takes.
+    """
     (i,) = build(world, [(0, 0.5)], slope=math.pi / 4)
     O.run(round(1.0 / O.dt), wait=True)
     free = 9.81 * math.sin(math.pi / 4) * (1 - 0.2)

@@ -1,4 +1,5 @@
-"""How fast steps and sweeps are on this machine: ``scripts/benchmark.py`` runs these measurements and writes ``benchmark.json``.
+"""How fast steps and sweeps are on this machine: ``scripts/benchmark.py`` runs these measurements and writes
+``benchmark.json``.
 
 * :mod:`steps`: whole time steps, by stage;
 * :mod:`sweeps`: sweeps alone, by the path that the solver takes, and the bound that memory sets;
@@ -7,5 +8,6 @@
 * :mod:`scale_figure`: its picture;
 * :mod:`suite`, :mod:`report`: all of it, and what it says together.
 
-The slopes that are timed, at rest, on the move and on soft contacts, stand in :mod:`yade.nonsmooth.studies.slope.states`.
+The slopes that are timed, at rest, on the move and on soft contacts, stand in
+:mod:`yade.nonsmooth.studies.slope.states`.
 """

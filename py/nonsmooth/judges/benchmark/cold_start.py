@@ -1,4 +1,6 @@
-"""Sweeps that a problem needs from zero impulses, and how much of the weight they have brought to the ground by then."""
+"""Sweeps that a problem needs from zero impulses, and how much of the weight they have brought to the ground by
+then.
+"""
 
 from __future__ import annotations
 
@@ -13,9 +15,12 @@ SWEEPS = 50_000  # at most; a slope whose bonds share the load may not get to th
 
 
 def solve_cold(problem):
-    """Sweeps and restarts of a ContactProblem from zero impulses, and the share of the converged solution's load that walls and floor then bear."""
+    """Sweeps and restarts of a ContactProblem from zero impulses, and the share of the converged solution's load that
+    walls and floor then bear.
+    """
     loose = contact.solve(problem, start="cold", tolerance=LOOSE, max_iterations=SWEEPS)
-    # late in a solve the residual rises and falls over tens of sweeps: seldom looked at, it causes fewer needless restarts
+    # late in a solve the residual rises and falls over tens of sweeps: seldom looked at, it causes fewer needless
+    # restarts
     tight = contact.solve(problem, start="cold", tolerance=TIGHT, max_iterations=SWEEPS, check_every=50)
     return {
         "contacts": len(problem.length),
@@ -35,6 +40,8 @@ def measure(folder, problem):
 
 
 def lmgc90(folder):
-    """LMGC90's packing at rest (tests/data); a function for processes.call. Raises FileNotFoundError where it is missing."""
+    """LMGC90's packing at rest (tests/data); a function for processes.call. Raises FileNotFoundError where it is
+    missing.
+    """
     _, problem, _ = lmgc90_packing.step_problem(folder)
     return solve_cold(problem)

@@ -6,8 +6,8 @@ from tabulate import tabulate
 
 __all__ = ["HEADLINES", "scale_table", "summarise", "table"]
 
-#: Headline figures, by their keys one in the other, and what each is; medians where there is a distribution. Steps are of the slope at rest, with as many threads
-#: as were asked for.
+#: Headline figures, by their keys one in the other, and what each is; medians where there is a distribution. Steps are
+#: of the slope at rest, with as many threads as were asked for.
 HEADLINES = {
     "sweep_ns_per_contact": "a sweep, for each contact, one thread [ns]",
     "sweep_speedup_over_scalar": "the same, over contacts swept one at a time",
@@ -31,14 +31,16 @@ def _of(measured, state, threads):
 
 
 def _outside_over_solve(measured):
-    """The correction of positions counts as solve: it sweeps the same blocks. Means, since a stage that works in some steps only, as a search of the collider does,
-    has no part in a median."""
+    """The correction of positions counts as solve: it sweeps the same blocks. Means, since a stage that works in some
+    steps only, as a search of the collider does, has no part in a median."""
     solve = measured["stage_ms"]["solve"]["mean"] + measured["stage_ms"]["correct"]["mean"]
     return (measured["step_ms"]["mean"] - solve) / solve
 
 
 def summarise(found) -> dict:
-    """``found`` of suite.run with the headline figures before it, quartiles of those that have them, and the mean time of each stage at rest and on the move."""
+    """``found`` of suite.run with the headline figures before it, quartiles of those that have them, and the mean time
+    of each stage at rest and on the move.
+    """
     rest, moving, soft = (_of(found["steps"], state, found["threads"]) for state in ("rest", "moving", "soft"))
     sweeps, cold, hard = found["sweeps"], found["cold_start"]["slope"], {"rest": rest, "moving": moving}
     step, soft_step = rest["step_ms"]["median"], soft["step_ms"]["median"]

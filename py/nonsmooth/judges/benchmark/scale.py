@@ -1,8 +1,10 @@
-"""How cost grows with size: slopes from thousands to a million disks, each packed, bonded and loaded by its weight in a process of its own.
+"""How cost grows with size: slopes from thousands to a million disks, each packed, bonded and loaded by its weight in a
+process of its own.
 
-These slopes are not settled, which would take hours for the largest. The time step shrinks with the diameters, so that contacts are known as many
-diameters ahead as in the section itself; the tolerance is that of the moving slope. What memory such a slope takes in YADE's own hands, with bonded soft contacts
-(CohFrictMat) and an InsertionSortCollider, is measured beside it.
+These slopes are not settled, which would take hours for the largest. The time step shrinks with the diameters, so that
+contacts are known as many diameters ahead as in the section itself; the tolerance is that of the moving slope. What
+memory such a slope takes in YADE's own hands, with bonded soft contacts (CohFrictMat) and an InsertionSortCollider, is
+measured beside it.
 """
 
 from __future__ import annotations
@@ -93,7 +95,8 @@ def _dumped(solver, path):
 
 
 def measure_soft_memory(folder, source, disks, packed):
-    """Memory for each disk of a slope with bonded soft contacts, the file ``packed`` its packing, before it is loaded; a function for processes.call.
+    """Memory for each disk of a slope with bonded soft contacts, the file ``packed`` its packing, before it is loaded;
+    a function for processes.call.
 
     Returns {"contacts", "bytes_per_disk"}.
     """
@@ -115,8 +118,9 @@ def measure_soft_memory(folder, source, disks, packed):
 
 
 def measure_sweeps(folder, problems, threads):
-    """Times the sweeps of the problems' files in turns, so that a slow moment of the machine does not count for one of them alone; a function for
-    processes.call. Returns {"sweeps": [{threads: spread of ns for each contact} for each file]}."""
+    """Times the sweeps of the problems' files in turns, so that a slow moment of the machine does not count for one of
+    them alone; a function for processes.call. Returns {"sweeps": [{threads: spread of ns for each contact} for each
+    file]}."""
     loaded = [contact.load(path) for path in problems]
     counts = sorted({1, threads})
     found = [{str(n): [] for n in counts} for _ in loaded]
@@ -128,7 +132,9 @@ def measure_sweeps(folder, problems, threads):
 
 
 def run(out, source, sizes, threads, progress=lambda share, doing: None):
-    """Measures all sizes, one after the other; returns a dictionary that JSON can hold. Raises states.BenchmarkError with the first failure."""
+    """Measures all sizes, one after the other; returns a dictionary that JSON can hold. Raises states.BenchmarkError
+    with the first failure.
+    """
     sizes = sorted(sizes)
     seconds, of_soft = {size: 10 + 1e-3 * size for size in sizes}, {
         size: 5 + 3e-4 * size for size in sizes if size <= SOFT_DISKS

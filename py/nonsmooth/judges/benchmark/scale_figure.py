@@ -8,7 +8,8 @@ from ...figures.style import LINES
 def cost_by_size(sizes, path=None, pdf=False):
     """Time of a step, of a sweep, memory and packing against the number of disks, on logarithmic axes.
 
-    ``sizes``: list of dictionaries as benchmark.scale.measure returns them. Dashed: proportional to the number of disks.
+    ``sizes``: list of dictionaries as benchmark.scale.measure returns them. Dashed: proportional to the number of
+    disks.
     """
     disks = [s["disks"] for s in sizes]
     of_sweep = lambda n: [s["sweep_ns_per_contact"][n]["median"] for s in sizes]  # noqa: E731

@@ -21,7 +21,8 @@ from ...world.stepping import advance
 
 __all__ = ["STAGES", "TimedSteps", "measure"]
 
-#: Stages of a step in their order, those of ContactDynamicsEngine.stageSeconds among them; "other" is what no stage has.
+#: Stages of a step in their order, those of ContactDynamicsEngine.stageSeconds among them; "other" is what no stage
+#: has.
 STAGES = (
     "reset",
     "collide",
@@ -42,17 +43,19 @@ STAGE_OF = {
     PorePressureEngine: "pore_pressure",
     NewtonIntegrator: "integrate",
 }
-WARM_UP = 5  # steps before the first that counts: the loaded scene has no caches yet, and its first step makes the collider's lists
+# steps before the first that counts: the loaded scene has no caches yet, and its first step makes the collider's lists
+WARM_UP = 5
 
 
 BLOCK = 10  # steps that are made and timed together, as the rows of a run, which reads a table of the disks after them
 
 
 class TimedSteps:
-    """Times steps, at which nobody looks, of the present scene by ContactDynamicsEngine.stageSeconds, by YADE's own timers where no engine of the plugin is at work, and by a clock around
-    BLOCK of them at a time.
+    """Times steps, at which nobody looks, of the present scene by ContactDynamicsEngine.stageSeconds, by YADE's own
+    timers where no engine of the plugin is at work, and by a clock around BLOCK of them at a time.
 
-    ``rows``: one dictionary a block: wall time [s] of one of its steps by stage, "step" for all of it and "other" for what no stage has.
+    ``rows``: one dictionary a block: wall time [s] of one of its steps by stage, "step" for all of it and "other" for
+    what no stage has.
     """
 
     def __init__(self):
@@ -88,8 +91,8 @@ class TimedSteps:
 def measure(folder, source, disks, state, steps, dump=False):
     """Times steps from a saved state; a function for processes.call.
 
-    ``state``: one of states.NAMES; ``dump``: whether to leave the last step's contact problem in ``folder/step.h5``. Raises states.BenchmarkError where the
-    state is missing.
+    ``state``: one of states.NAMES; ``dump``: whether to leave the last step's contact problem in ``folder/step.h5``.
+    Raises states.BenchmarkError where the state is missing.
     """
     states.load(source, disks, state)
     timed = TimedSteps().run(0)

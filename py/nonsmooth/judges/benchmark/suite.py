@@ -24,10 +24,12 @@ FULL, QUICK = Effort(200, 30), Effort(60, 10)
 
 
 def run(out, source, disks, threads, effort, progress=lambda share, doing: None):
-    """Makes the states that are missing, and measures; returns everything as a dictionary that JSON can hold (see report.summarise).
+    """Makes the states that are missing, and measures; returns everything as a dictionary that JSON can hold (see
+    report.summarise).
 
-    ``source``: section of the slope, see states.section_of; ``out``: folder that keeps each process's log below ``runs``; ``progress``: called with the
-    share done and what is being done. Raises states.BenchmarkError with the first failure.
+    ``source``: section of the slope, see states.section_of; ``out``: folder that keeps each process's log below
+    ``runs``; ``progress``: called with the share done and what is being done. Raises states.BenchmarkError with the
+    first failure.
     """
     subject = {"source": source, "disks": disks}
     made = not states.exist(source, disks)

@@ -1,11 +1,12 @@
 """Sweeps alone: wall time for each contact and sweep by every path of the solver, and the bound that memory sets.
 
-Timed is a sweep of the accelerated method, extrapolation included and residuals not: the difference between two solves of one problem that make
-20 and 120 sweeps from no impulses and look at the residual at their ends only. By all paths but "reference" and "double" they are sweeps in single precision. What a solve does once (layout, velocities anew) cancels. The paths take
-turns, so that whatever else the machine does hits all of them.
+Timed is a sweep of the accelerated method, extrapolation included and residuals not: the difference between two solves
+of one problem that make 20 and 120 sweeps from no impulses and look at the residual at their ends only. By all paths
+but "reference" and "double" they are sweeps in single precision. What a solve does once (layout, velocities anew)
+cancels. The paths take turns, so that whatever else the machine does hits all of them.
 
-The bound: a sweep reads every number of every block once and writes the impulses. Memory is streamed through by one thread, which reads, changes
-and writes back each number; bytes are counted once.
+The bound: a sweep reads every number of every block once and writes the impulses. Memory is streamed through by one
+thread, which reads, changes and writes back each number; bytes are counted once.
 """
 
 from __future__ import annotations
@@ -51,7 +52,8 @@ def sweep_seconds(problem, path, threads, precision):
             )
         return solved.seconds
 
-    # the better of two, since what a large solve does once (layout, memory anew) takes as long as many sweeps, and not always as long
+    # the better of two, since what a large solve does once (layout, memory anew) takes as long as many sweeps, and not
+    # always as long
     return (min(solve(MANY), solve(MANY)) - min(solve(FEW), solve(FEW))) / (MANY - FEW)
 
 

@@ -1,5 +1,5 @@
-"""What the law, the time stepping and the solver are held against: checks that compare with a derivation, with other people's codes or with
-themselves at a finer step, and a report of them. ``scripts/verify.py`` runs them.
+"""What the law, the time stepping and the solver are held against: checks that compare with a derivation, with other
+people's codes or with themselves at a finer step, and a report of them. ``scripts/verify.py`` runs them.
 
 A check is a function marked by :func:`check`; it gets a :class:`Bench` and returns a :class:`Findings`: claims (one row
 each in the report), plots and remarks. Checks stand in the modules named in :data:`MODULES`, by subject.

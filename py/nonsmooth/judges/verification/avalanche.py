@@ -1,4 +1,6 @@
-"""Whole avalanches: energy, residuals, bonds, errors of position, and what a looser tolerance in motion does to them."""
+"""Whole avalanches: energy, residuals, bonds, errors of position, and what a looser tolerance in motion does to
+them.
+"""
 
 from __future__ import annotations
 
@@ -73,17 +75,19 @@ def _row(name, unit, values):
 def whole_avalanche(bench):
     """The slope of Jiufengershan from its first step to its deposit, five packings of disks larger than the paper's.
 
-    Kinetic and potential energy change by the work of the pore water and of driven walls, less what contacts dissipate by sliding, by
-    rolling, in impacts and on bonds. Each of these is summed on its own, as the work of the step's impulses over the mean of the velocities
-    before and after it, which is exact for constant masses. What is left over is the error of the balance; only the rounding of the
-    positions' update (potential energy of a parabola taken in steps) can be in it. Displacements that take back errors of position
-    lift bodies or let them down and so give energy; it is counted by itself, because it is not physics.
+    Kinetic and potential energy change by the work of the pore water and of driven walls, less what contacts dissipate
+    by sliding, by rolling, in impacts and on bonds. Each of these is summed on its own, as the work of the step's
+    impulses over the mean of the velocities before and after it, which is exact for constant masses. What is left over
+    is the error of the balance; only the rounding of the positions' update (potential energy of a parabola taken in
+    steps) can be in it. Displacements that take back errors of position lift bodies or let them down and so give
+    energy; it is counted by itself, because it is not physics.
 
-    The solver may make 1,000 sweeps a step here, instead of the section's 300. The same packings run once more with a tolerance in motion of 1e-3 instead of 2e-4,
-    which saves sweeps, and once more with a tenth of the errors of position that stay in slopes; what this does to the results stands in tables of their own.
+    The solver may make 1,000 sweeps a step here, instead of the section's 300. The same packings run once more with a
+    tolerance in motion of 1e-3 instead of 2e-4, which saves sweeps, and once more with a tenth of the errors of
+    position that stay in slopes; what this does to the results stands in tables of their own.
 
-    In a quick run two packings of the small section of the tests take their place, with its own numerics; what is taken back of errors of position weighs more where a
-    fall is a few diameters deep.
+    In a quick run two packings of the small section of the tests take their place, with its own numerics; what is taken
+    back of errors of position weighs more where a fall is a few diameters deep.
     """
     disks, seeds, step, tolerance, tight = (
         (0, SEEDS[:2], QUICK.step, QUICK.tolerance, QUICK.moving)

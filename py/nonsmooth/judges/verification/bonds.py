@@ -74,7 +74,9 @@ class Pair:
 
 
 def cases(adhesion, friction, rolling):
-    """{name: (how it breaks or None, overload at which it is seen to break, loads as a function of x)}; x = 1 is the threshold."""
+    """{name: (how it breaks or None, overload at which it is seen to break, loads as a function of x)}; x = 1 is the
+    threshold.
+    """
     pull = -0.5 * adhesion
     shear, torque = (lambda n: friction * (adhesion + n)), (lambda n: rolling * LENGTH * (adhesion + n))
     return {
@@ -114,15 +116,16 @@ def _breaks_as(pair):
 
 @check("Thresholds of a bond", subject="Bonds", seconds=1)
 def bond_thresholds(bench):
-    """A bonded pair under a steady load stands still while (N, T, Γ) that balance the load lie within their thresholds: N at least −F_a, T
-    at most μ_s (F_a + N) and Γ at most μ_r ℓ (F_a + N) in magnitude, with F_a = σ ℓ (eqs 1 to 6 of Taboada and Estrada 2009). One disk
-    is fixed, so the balance has one solution, and the threshold is the load at which the other begins to move. Shear force and torque
-    have thresholds of their own, which know of each other only through N: together they do not weaken the bond.
+    """A bonded pair under a steady load stands still while (N, T, Γ) that balance the load lie within their thresholds:
+    N at least −F_a, T at most μ_s (F_a + N) and Γ at most μ_r ℓ (F_a + N) in magnitude, with F_a = σ ℓ (eqs 1 to 6 of
+    Taboada and Estrada 2009). One disk is fixed, so the balance has one solution, and the threshold is the load at
+    which the other begins to move. Shear force and torque have thresholds of their own, which know of each other only
+    through N: together they do not weaken the bond.
 
-    The threshold is found by bisection, each trial one step from rest. Then, in fresh scenes, a bond under 1 − 1e-6 of it must hold for
-    300 steps and one under 1 + 1e-6 must break, by the mode that was loaded. Its ellipse is small here (1e-4 ℓ) so that this does not
-    take long. Two cases need more load to break: tension straightens a bond that slips (by T d/ℓ, 3e-4 of the threshold at the
-    ellipse's edge) or rolls (by some 7e-2), since the load keeps its direction.
+    The threshold is found by bisection, each trial one step from rest. Then, in fresh scenes, a bond under 1 − 1e-6 of
+    it must hold for 300 steps and one under 1 + 1e-6 must break, by the mode that was loaded. Its ellipse is small here
+    (1e-4 ℓ) so that this does not take long. Two cases need more load to break: tension straightens a bond that slips
+    (by T d/ℓ, 3e-4 of the threshold at the ellipse's edge) or rolls (by some 7e-2), since the load keeps its direction.
     """
     claims, rows = Claims(), []
     for angle in (0.0, 2.0):
@@ -151,9 +154,9 @@ def bond_thresholds(bench):
 
 @check("Residual strength of a contact without a bond", subject="Bonds", seconds=1)
 def residual_thresholds(bench):
-    """Two touching disks without a bond obey the same three thresholds with the residual strengths: F_a = σ_res ℓ, and μ_s and μ_r of
-    their own (Taboada and Estrada 2009, section 2.2). The pair's bond is taken away by hand; thresholds are then found by bisection as
-    for the bond.
+    """Two touching disks without a bond obey the same three thresholds with the residual strengths: F_a = σ_res ℓ, and
+    μ_s and μ_r of their own (Taboada and Estrada 2009, section 2.2). The pair's bond is taken away by hand; thresholds
+    are then found by bisection as for the bond.
     """
     claims, found = Claims(), {}
     for name, (_, _, loads) in cases(0.25 * F_A, 0.2, 0.05).items():
@@ -166,22 +169,24 @@ def residual_thresholds(bench):
 
 @check("A bond breaks where its mark leaves the ellipse", subject="Bonds", seconds=1)
 def bond_ellipse(bench):
-    """A bond that yields lives until the point marked on one disk has left an ellipse fixed to the other, with the half-axes ε_n ℓ and ε_t
-    ℓ (Figure 2b of Taboada and Estrada 2009). Three kinds of motion are forced on a pair, each so slowly that 1,000 steps lead to the
-    edge (300 in a quick run); the step in which the bond ends is then known to one step's move.
+    """A bond that yields lives until the point marked on one disk has left an ellipse fixed to the other, with the
+    half-axes ε_n ℓ and ε_t ℓ (Figure 2b of Taboada and Estrada 2009). Three kinds of motion are forced on a pair, each
+    so slowly that 1,000 steps lead to the edge (300 in a quick run); the step in which the bond ends is then known to
+    one step's move.
 
-    *Straight.* A free disk so heavy (1e12 kg) that no threshold slows it moves off at an angle φ to the normal, without turning. The
-    mark moves as the disk, so the bond breaks after the path ℓ / √((cos φ/ε_n)² + (sin φ/ε_t)²): ε_n ℓ along the normal, ε_t ℓ along
-    the tangent. Along the normal it resists with F_a all the way and takes F_a ε_n ℓ.
+    *Straight.* A free disk so heavy (1e12 kg) that no threshold slows it moves off at an angle φ to the normal, without
+    turning. The mark moves as the disk, so the bond breaks after the path ℓ / √((cos φ/ε_n)² + (sin φ/ε_t)²): ε_n ℓ
+    along the normal, ε_t ℓ along the tangent. Along the normal it resists with F_a all the way and takes F_a ε_n ℓ.
 
-    *Sliding under compression.* The other disk is driven along the tangent; the free one, too heavy to turn, may move along the first
-    normal only, and a force P presses it on. It goes round a circle of radius ℓ, so after the sideways path y the normal displacement
-    is √(ℓ² − y²) − ℓ. With α the turn of the normal, N cos α − T sin α = P and T = μ_s (F_a + N), which sliding dissipates over ℓ dα.
+    *Sliding under compression.* The other disk is driven along the tangent; the free one, too heavy to turn, may move
+    along the first normal only, and a force P presses it on. It goes round a circle of radius ℓ, so after the sideways
+    path y the normal displacement is √(ℓ² − y²) − ℓ. With α the turn of the normal, N cos α − T sin α = P and T = μ_s
+    (F_a + N), which sliding dissipates over ℓ dα.
 
-    *Rolling under compression.* The other disk turns by ψ where it is; the free one rolls on it and may move along the first normal and
-    turn. In the frame of the driven disk the mark draws a cardioid, d_n = ℓ cos ψ (1 − cos ψ) and d_t = ℓ sin ψ (1 − cos ψ): for small
-    ψ it moves along the normal by ℓ ψ²/2. The torque μ_r ℓ (F_a + P) works over the relative rotation 2 ψ; it needs T = 2 μ_r (F_a +
-    P), which is below the shear threshold as 2 μ_r < μ_s.
+    *Rolling under compression.* The other disk turns by ψ where it is; the free one rolls on it and may move along the
+    first normal and turn. In the frame of the driven disk the mark draws a cardioid, d_n = ℓ cos ψ (1 − cos ψ) and d_t
+    = ℓ sin ψ (1 − cos ψ): for small ψ it moves along the normal by ℓ ψ²/2. The torque μ_r ℓ (F_a + P) works over the
+    relative rotation 2 ψ; it needs T = 2 μ_r (F_a + P), which is below the shear threshold as 2 μ_r < μ_s.
     """
     claims, zone, steps = Claims(), (0.02, 0.05), 300 if bench.quick else 1000
     one_step = f"one step's move, 1/{steps} of the way"
@@ -255,7 +260,9 @@ def bond_ellipse(bench):
 
 
 def _until_broken(read, most):
-    """``read()``, two numbers, at the beginning of the step in which the one bond ends; nan if it lives for ``most`` steps."""
+    """``read()``, two numbers, at the beginning of the step in which the one bond ends; nan if it lives for ``most``
+    steps.
+    """
     for _ in range(most):
         then = read()
         O.step()
@@ -265,8 +272,8 @@ def _until_broken(read, most):
 
 
 def row_of_disks(count, strength, both_ends=False, rolling=ROLLING, friction=FRICTION, zone=0.02):
-    """A horizontal row of free disks, bonded to each other and to a fixed disk at one end or at both, before gravity acts; returns the
-    free disks.
+    """A horizontal row of free disks, bonded to each other and to a fixed disk at one end or at both, before gravity
+    acts; returns the free disks.
 
     ``strength``: F_a in units of one disk's weight.
     """
@@ -285,7 +292,9 @@ def row_of_disks(count, strength, both_ends=False, rolling=ROLLING, friction=FRI
 
 
 def _first_breaks(most):
-    """Runs until a bond breaks; returns the pairs that broke in that step and the modes, empty lists if none does in ``most`` steps."""
+    """Runs until a bond breaks; returns the pairs that broke in that step and the modes, empty lists if none does in
+    ``most`` steps.
+    """
     for _ in range(most):
         O.step()
         broken = tables.breaks(engine())
@@ -298,17 +307,18 @@ def _first_breaks(most):
 
 @check("A bonded row held at one end", subject="Bonds", seconds=1)
 def cantilever(bench):
-    """n disks of weight w and diameter d stand out from a fixed one in a horizontal row. The contact that carries the last k of them bears
-    no normal force, the shear force k w and the moment of their weights about it, w (d/2 + 3 d/2 + …) = w d k²/2. Each disk has three
-    balances and each contact three reactions: the row is statically determined. The root bears most, n w against μ_s F_a and w d n²/2
-    against μ_r d F_a. So with A = F_a/w
+    """n disks of weight w and diameter d stand out from a fixed one in a horizontal row. The contact that carries the
+    last k of them bears no normal force, the shear force k w and the moment of their weights about it, w (d/2 + 3 d/2 +
+    …) = w d k²/2. Each disk has three balances and each contact three reactions: the row is statically determined. The
+    root bears most, n w against μ_s F_a and w d n²/2 against μ_r d F_a. So with A = F_a/w
 
     * the moment governs if √(2 μ_r A) < μ_s A, and then the longest row that holds has n ≤ √(2 μ_r A);
     * else shear does, and n ≤ μ_s A.
 
-    Four cases. With μ_r = 0.1 and A = 281, √(2 μ_r A) = 7.5: seven disks hold, eight break by torque at the root. With μ_r = 1 and A =
-    15, μ_s A = 4.5 (against √(2 μ_r A) = 5.5): four hold, five break by shear at the root. And with eight disks, F_a a part in 1e5
-    above and below n² w/(2 μ_r): the row rests, or begins to turn about its root as one piece, driven by what the root does not bear.
+    Four cases. With μ_r = 0.1 and A = 281, √(2 μ_r A) = 7.5: seven disks hold, eight break by torque at the root. With
+    μ_r = 1 and A = 15, μ_s A = 4.5 (against √(2 μ_r A) = 5.5): four hold, five break by shear at the root. And with
+    eight disks, F_a a part in 1e5 above and below n² w/(2 μ_r): the row rests, or begins to turn about its root as one
+    piece, driven by what the root does not bear.
     """
     claims, rows = Claims(), []
     for name, strength, rolling, holds in (("torque", 7.5**2 / (2 * 0.1), 0.1, 7), ("shear", 15.0, 1.0, 4)):
@@ -379,22 +389,23 @@ def _edge(name, build, strength, moment, turning, margin=1e-5):
 
 @check("A bonded row held at both ends", subject="Bonds", seconds=1)
 def bridge(bench):
-    """n disks hang in a horizontal row between two fixed disks by n + 1 bonds. Rigid bonds have no stiffness to share the load by, so
-    statics leaves the moments of the ends open; a rigid-plastic structure stands as long as some distribution within the thresholds
-    balances the load (static theorem of limit analysis), which the solver finds if there is one. While the row is straight, weights
-    make no normal force, so the thresholds are constants, M_p = μ_r d F_a and μ_s F_a, and the theorem holds.
+    """n disks hang in a horizontal row between two fixed disks by n + 1 bonds. Rigid bonds have no stiffness to share
+    the load by, so statics leaves the moments of the ends open; a rigid-plastic structure stands as long as some
+    distribution within the thresholds balances the load (static theorem of limit analysis), which the solver finds if
+    there is one. While the row is straight, weights make no normal force, so the thresholds are constants, M_p = μ_r d
+    F_a and μ_s F_a, and the theorem holds.
 
-    With freely turning ends the moment at the contact after c disks would be w d c (n − c)/2. End moments M shift it to w d c (n − c)/2
-    − M. All stay within ± M_p if and only if the greatest is at most 2 M_p: w d n²/8 ≤ 2 M_p for even n, w d (n² − 1)/8 for odd n.
-    Collapse has three hinges, at both ends and in the middle (two beside the middle disk for odd n). Shear asks for n w/2 ≤ μ_s F_a.
-    With A = F_a/w the row holds for n² ≤ 16 μ_r A (n² − 1 for odd n) if n ≤ 2 μ_s A. With μ_r = 0.1 and A = 45 these are 72 and 27:
-    eight disks hold (64), nine do not (80).
+    With freely turning ends the moment at the contact after c disks would be w d c (n − c)/2. End moments M shift it to
+    w d c (n − c)/2 − M. All stay within ± M_p if and only if the greatest is at most 2 M_p: w d n²/8 ≤ 2 M_p for even
+    n, w d (n² − 1)/8 for odd n. Collapse has three hinges, at both ends and in the middle (two beside the middle disk
+    for odd n). Shear asks for n w/2 ≤ μ_s F_a. With A = F_a/w the row holds for n² ≤ 16 μ_r A (n² − 1 for odd n) if n ≤
+    2 μ_s A. With μ_r = 0.1 and A = 45 these are 72 and 27: eight disks hold (64), nine do not (80).
 
-    Hinges that turn lengthen a row between fixed ends. This is of second order in the sag, but rigid bonds that lengthen pull with all
-    of F_a, and with N = −F_a the other two thresholds vanish. So nothing is left of the strength once a row sags: it falls, and how its
-    bonds end then is no matter of statics. Statics says where it begins to turn, which is read from the first step's velocities, and
-    how fast: with F_a a part in 1e5 too small, the halves of a row of eight turn about their ends, each driven by that part of w d
-    n²/8.
+    Hinges that turn lengthen a row between fixed ends. This is of second order in the sag, but rigid bonds that
+    lengthen pull with all of F_a, and with N = −F_a the other two thresholds vanish. So nothing is left of the strength
+    once a row sags: it falls, and how its bonds end then is no matter of statics. Statics says where it begins to turn,
+    which is read from the first step's velocities, and how fast: with F_a a part in 1e5 too small, the halves of a row
+    of eight turn about their ends, each driven by that part of w d n²/8.
     """
     claims, strength = Claims(), 45.0
     bench.progress("holds")

@@ -1,6 +1,8 @@
-"""Independent cases of a check, each in a YADE process of its own, as many at a time as there are threads, each result on disk.
+"""Independent cases of a check, each in a YADE process of its own, as many at a time as there are threads, each result
+on disk.
 
-What a case found is kept in a folder below the check's, and is not computed again when an interrupted check is resumed (``scripts/verify.py --resume``).
+What a case found is kept in a folder below the check's, and is not computed again when an interrupted check is resumed
+(``scripts/verify.py --resume``).
 """
 
 from __future__ import annotations
@@ -14,9 +16,10 @@ __all__ = ["folder_of", "run_cases"]
 def run_cases(bench, function, cases):
     """Calls ``function(folder, **case)`` for every case and returns what the calls returned, in the order of ``cases``.
 
-    ``function``: of a module of this package; it returns a dictionary that JSON can hold, to which ``wall_s`` and ``process_wall_s`` [s] are added.
-    ``folder``: an empty one for the case's files. ``cases``: dictionaries of numbers and short words, all different. Raises processes.RunError with the
-    end of its output where a case fails; the others are finished first.
+    ``function``: of a module of this package; it returns a dictionary that JSON can hold, to which ``wall_s`` and
+    ``process_wall_s`` [s] are added. ``folder``: an empty one for the case's files. ``cases``: dictionaries of numbers
+    and short words, all different. Raises processes.RunError with the end of its output where a case fails; the others
+    are finished first.
     """
     cases, name = list(cases), processes.named(function)
     runs = [

@@ -74,8 +74,9 @@ class Claims(list):
 
 @dataclass
 class Findings:
-    """What a check found. ``plots``: (matplotlib Figure or path of a PNG in the bench's folder, caption); ``tables``: (caption, heads, rows of text); ``remarks``: sentences;
-    ``numbers``: what documentation shows besides, plain data by name."""
+    """What a check found. ``plots``: (matplotlib Figure or path of a PNG in the bench's folder, caption); ``tables``:
+    (caption, heads, rows of text); ``remarks``: sentences; ``numbers``: what documentation shows besides, plain data by
+    name."""
 
     claims: list[Claim] = field(default_factory=list)
     plots: list = field(default_factory=list)

@@ -22,10 +22,11 @@ POINTS = 2000  # at which two profiles are compared
 
 
 def collapse(folder, disks, seed, path, overlap, rate):
-    """A column at :data:`WHEN` after its release from rounded places; writes ``profile.npz`` (x and height of its surface before and then [m]).
+    """A column at :data:`WHEN` after its release from rounded places; writes ``profile.npz`` (x and height of its
+    surface before and then [m]).
 
-    ``path``: time step as mean diameters at the speed of a fall from the top; ``overlap``: places are rounded so that disks overlap by up to this [ℓ], 0: not at all;
-    ``rate``: share κ of the errors of position that a step takes back.
+    ``path``: time step as mean diameters at the speed of a fall from the top; ``overlap``: places are rounded so that
+    disks overlap by up to this [ℓ], 0: not at all; ``rate``: share κ of the errors of position that a step takes back.
     """
     from yade import O
 
@@ -61,16 +62,21 @@ def collapse(folder, disks, seed, path, overlap, rate):
 
 
 def rounded(x, y, r, overlap):
-    """Places on a grid so wide that the largest overlap of two disks is about ``overlap`` mean diameters; the disks as they are for 0."""
+    """Places on a grid so wide that the largest overlap of two disks is about ``overlap`` mean diameters; the disks as
+    they are for 0.
+    """
     if overlap == 0:
         return x, y
-    # of two disks each coordinate is off by half a pitch at most, so their gap by 1.41 pitches at most; few come near that
+    # of two disks each coordinate is off by half a pitch at most, so their gap by 1.41 pitches at most; few come near
+    # that
     pitch = overlap * 2 * float(np.mean(r))
     return tuple(np.round(a / pitch) * pitch for a in (x, y))
 
 
 def area_between(a, b):
-    """Area between two profiles (x, height [m]) as a share of the area below the second; where a profile has no points its height is 0."""
+    """Area between two profiles (x, height [m]) as a share of the area below the second; where a profile has no points
+    its height is 0.
+    """
     at = np.linspace(min(a[0].min(), b[0].min()), max(a[0].max(), b[0].max()), POINTS)
     first, second = (np.interp(at, *profile, left=0, right=0) for profile in (a, b))
     return float(np.sum(np.abs(first - second)) / np.sum(second))
@@ -78,13 +84,16 @@ def area_between(a, b):
 
 @check("Collapse of a column whose disks overlap, against the time step", subject=SUBJECT, seconds=300, quick=25)
 def collapse_of_rounded_places(bench):
-    """Places that were printed with a few digits make disks overlap. What takes that back must not push: a bias κ g/h on the velocity leaves the speed κ δ/h behind, so that a
-    column falls wider and taller, and the more so the smaller the step. Displacements leave no velocity behind, and the profile during the fall
-    must not depend on the step, nor on κ.
+    """Places that were printed with a few digits make disks overlap. What takes that back must not push: a bias κ g/h
+    on the velocity leaves the speed κ δ/h behind, so that a column falls wider and taller, and the more so the smaller
+    the step. Displacements leave no velocity behind, and the profile during the fall must not depend on the step, nor
+    on κ.
 
-    A column of aspect ratio 2 rests in its box; its disks are moved to the points of a grid, so that they overlap by up to 0.1 mean diameters, released, and looked at after 0.66 √(H/g),
-    with the usual step h (a tenth of a mean diameter at the speed of a fall from the top) and with h/4. Compared are surfaces averaged over two diameters: the area between them, as a
-    share of the area below. Two runs with anything else between them show how far chance goes: the same column without overlaps.
+    A column of aspect ratio 2 rests in its box; its disks are moved to the points of a grid, so that they overlap by up
+    to 0.1 mean diameters, released, and looked at after 0.66 √(H/g), with the usual step h (a tenth of a mean diameter
+    at the speed of a fall from the top) and with h/4. Compared are surfaces averaged over two diameters: the area
+    between them, as a share of the area below. Two runs with anything else between them show how far chance goes: the
+    same column without overlaps.
     """
     disks, seeds = (1000, (1,)) if bench.quick else (3000, (1, 2))
     kinds = {

@@ -51,13 +51,13 @@ class Incline:
 
 @check("A slider on a plane of 21°", subject="Sliding and rolling", seconds=1)
 def slider_on_a_plane(bench):
-    """A disk that may not turn is a slider. Along a plane of dip θ it has the acceleration a = g (sin θ − μ cos θ) by Coulomb's law (eq. 3
-    and 4 of Taboada and Estrada 2009 with no cohesion). With θ = 21° and μ = 0.3 this is 0.768 m/s², and 5 m take √(10 m / a) = 3.61 s;
-    without friction it is g sin θ = 3.516 m/s².
+    """A disk that may not turn is a slider. Along a plane of dip θ it has the acceleration a = g (sin θ − μ cos θ) by
+    Coulomb's law (eq. 3 and 4 of Taboada and Estrada 2009 with no cohesion). With θ = 21° and μ = 0.3 this is 0.768
+    m/s², and 5 m take √(10 m / a) = 3.61 s; without friction it is g sin θ = 3.516 m/s².
 
-    Moreau's scheme moves with the velocity of a step's end, so from rest v = a t and x = a t (t + h)/2 hold exactly: the time for 5 m
-    comes out early by half a step. The plane is cut into pieces of half a radius: a joint between two of them must give neither a bump
-    nor a second contact that carries force.
+    Moreau's scheme moves with the velocity of a step's end, so from rest v = a t and x = a t (t + h)/2 hold exactly:
+    the time for 5 m comes out early by half a step. The plane is cut into pieces of half a radius: a joint between two
+    of them must give neither a bump nor a second contact that carries force.
     """
     claims, figure = Claims(), Figure(figsize=(6.4, 3.4))
     axes = figure.add_subplot()
@@ -105,16 +105,17 @@ def incline_accelerations(tangent, friction, rolling):
 
 @check("A disk on an incline rests, rolls, slips or slides", subject="Sliding and rolling", seconds=1)
 def disk_on_an_incline(bench):
-    """The torque that resists rolling is at most Γ = μ_r ℓ N with ℓ = d = 2 r at a wall (eq. 6), the shear force at most μ_s N. With N = m
-    g cos θ and the disk's inertia m r²/2, rolling without slip means m a = m g sin θ − T and (m r²/2)(a/r) = T r − 2 μ_r r N, hence
+    """The torque that resists rolling is at most Γ = μ_r ℓ N with ℓ = d = 2 r at a wall (eq. 6), the shear force at
+    most μ_s N. With N = m g cos θ and the disk's inertia m r²/2, rolling without slip means m a = m g sin θ − T and (m
+    r²/2)(a/r) = T r − 2 μ_r r N, hence
 
     * a = ⅔ g (sin θ − 2 μ_r cos θ), positive only if tan θ > 2 μ_r: below that the disk stays (if it does not slide);
     * T = ⅓ m g (sin θ + 4 μ_r cos θ), which is at most μ_s N while tan θ ≤ 3 μ_s − 4 μ_r;
     * beyond that it slips: a = g (sin θ − μ_s cos θ) and r α = 2 (μ_s − 2 μ_r) g cos θ;
     * where μ_s < 2 μ_r friction cannot turn it, and it slides without turning once tan θ > μ_s.
 
-    The first three meet without a jump. All of them hold step by step (v = a t), so a and α are read from 100 steps. The thresholds are
-    looked at from a relative distance of 1e-6.
+    The first three meet without a jump. All of them hold step by step (v = a t), so a and α are read from 100 steps.
+    The thresholds are looked at from a relative distance of 1e-6.
     """
     figure = Figure(figsize=(7.4, 3.4))
     panels, claims = figure.subplots(1, 2, sharey=True), Claims()
@@ -172,16 +173,18 @@ def disk_on_an_incline(bench):
 
 @check("A spinning disk set down on a floor", subject="Sliding and rolling", seconds=1)
 def spinning_disk(bench):
-    """A disk with the spin ω₀ and no speed touches a floor. It slips, and friction μ m g drives it on and takes its spin. With rolling
-    friction μ_r the torque Γ = 2 μ_r r m g (ℓ = 2 r) brakes the spin as well:
+    """A disk with the spin ω₀ and no speed touches a floor. It slips, and friction μ m g drives it on and takes its
+    spin. With rolling friction μ_r the torque Γ = 2 μ_r r m g (ℓ = 2 r) brakes the spin as well:
 
-    * v = μ g t and r ω = r ω₀ − 2 (μ + 2 μ_r) g t, so slip ends at t₁ = r ω₀ / ((3 μ + 4 μ_r) g) with v₁ = μ r ω₀ / (3 μ + 4 μ_r);
+    * v = μ g t and r ω = r ω₀ − 2 (μ + 2 μ_r) g t, so slip ends at t₁ = r ω₀ / ((3 μ + 4 μ_r) g) with v₁ = μ r ω₀ / (3
+      μ + 4 μ_r);
     * the slip falls in proportion to time, so sliding takes μ m g · r ω₀ t₁ / 2;
-    * without rolling friction v₁ = r ω₀ / 3 whatever μ is (spin about a point of the floor is kept, v + r ω/2 = r ω₀/2), the sliding
-      loss is m r² ω₀² / 6, two thirds of all energy, and the disk rolls on for ever;
+    * without rolling friction v₁ = r ω₀ / 3 whatever μ is (spin about a point of the floor is kept, v + r ω/2 = r
+      ω₀/2), the sliding loss is m r² ω₀² / 6, two thirds of all energy, and the disk rolls on for ever;
     * with it the disk then slows down by 4/3 μ_r g and stops after t₁ + 3 v₁ / (4 μ_r g); all of m r² ω₀² / 4 is lost.
 
-    Losses are sums of P · (U before + U after)/2, exact for constant mass. Only the step in which slip ends does not end with it.
+    Losses are sums of P · (U before + U after)/2, exact for constant mass. Only the step in which slip ends does not
+    end with it.
     """
     friction, spin, claims = 0.3, 10.0, Claims()
     figure = Figure(figsize=(7.4, 3.4))
@@ -236,7 +239,9 @@ def spinning_disk(bench):
 
 
 class Squeeze:
-    """A disk between a floor driven at ``below`` and a roof driven at ``above`` [m/s], which ``load`` [N] presses down; no gravity."""
+    """A disk between a floor driven at ``below`` and a roof driven at ``above`` [m/s], which ``load`` [N] presses down;
+    no gravity.
+    """
 
     def __init__(self, load, above, below, friction=0.3, rolling=0.0, dt=1e-4, rolls=False):
         O.reset()
@@ -265,19 +270,20 @@ class Squeeze:
 
 @check("A disk between two driven walls", subject="Sliding and rolling", seconds=1)
 def disk_between_driven_walls(bench):
-    """A disk lies between a floor that is driven with u₂ and a roof that is driven with u₁ and pressed down with the force N; there is no
-    gravity. Rolling without slip on both asks for v − r ω = u₁ and v + r ω = u₂, so v = (u₁ + u₂)/2 and ω = (u₂ − u₁)/(2 r),
-    counter-clockwise positive.
+    """A disk lies between a floor that is driven with u₂ and a roof that is driven with u₁ and pressed down with the
+    force N; there is no gravity. Rolling without slip on both asks for v − r ω = u₁ and v + r ω = u₂, so v = (u₁ +
+    u₂)/2 and ω = (u₂ − u₁)/(2 r), counter-clockwise positive.
 
-    From rest, with u₁ = 1 m/s and u₂ = −0.4 m/s, both contacts slip at first: the shear forces μ N cancel in sum and turn the disk with
-    (r ω)′ = −4 μ N/m. The floor stops slipping when r ω = u₂, after t₁ = m (−u₂)/(4 μ N). Then it sticks with the shear force μ N/3,
-    the centre gains v′ = 4 μ N/(3 m), and the roof stops slipping when v = (u₁ + u₂)/2, after another 3 m v/(4 μ N). The walls do the
-    work μ N (u₁ t₂ − u₂ t₁ + u₂ (t₂ − t₁)/3); it becomes the disk's energy and sliding loss.
+    From rest, with u₁ = 1 m/s and u₂ = −0.4 m/s, both contacts slip at first: the shear forces μ N cancel in sum and
+    turn the disk with (r ω)′ = −4 μ N/m. The floor stops slipping when r ω = u₂, after t₁ = m (−u₂)/(4 μ N). Then it
+    sticks with the shear force μ N/3, the centre gains v′ = 4 μ N/(3 m), and the roof stops slipping when v = (u₁ +
+    u₂)/2, after another 3 m v/(4 μ N). The walls do the work μ N (u₁ t₂ − u₂ t₁ + u₂ (t₂ − t₁)/3); it becomes the
+    disk's energy and sliding loss.
 
-    In steady motion with rolling friction each contact resists with Γ = 2 μ_r r N, so the shear forces must be T = 2 μ_r N: the walls'
-    power T (u₁ − u₂) is the rolling loss 2 Γ ω. If a torque τ resists as well, T = 2 μ_r N + τ/(2 r): the walls can turn the disk only
-    while this is at most μ N, that is with a squeeze above N* = τ / (2 r (μ − 2 μ_r)). With less both slip, and the spin changes by (2
-    r (μ − 2 μ_r) N − τ)/(m r²/2) a second.
+    In steady motion with rolling friction each contact resists with Γ = 2 μ_r r N, so the shear forces must be T = 2
+    μ_r N: the walls' power T (u₁ − u₂) is the rolling loss 2 Γ ω. If a torque τ resists as well, T = 2 μ_r N + τ/(2 r):
+    the walls can turn the disk only while this is at most μ N, that is with a squeeze above N* = τ / (2 r (μ − 2 μ_r)).
+    With less both slip, and the spin changes by (2 r (μ − 2 μ_r) N − τ)/(m r²/2) a second.
 
     The roof is free along one axis only, so its contacts take the solver's general path and not that of the blocks.
     """
@@ -370,9 +376,9 @@ def _stack(count, stuff):
 
 @check("A stack of fifty disks carries its weight", subject="Statics", seconds=1)
 def stack_of_disks(bench):
-    """In a straight stack at rest the contact below disk k, counted from the top, carries k m g, and the floor all of it. The problem has
-    one solution, so the solve must find it to its tolerance. Its condition number is that of a chain, (4/π²) n² · 4 = 4e3 for n = 50: a
-    residual of 1e-12 leaves forces good to about 4e-9.
+    """In a straight stack at rest the contact below disk k, counted from the top, carries k m g, and the floor all of
+    it. The problem has one solution, so the solve must find it to its tolerance. Its condition number is that of a
+    chain, (4/π²) n² · 4 = 4e3 for n = 50: a residual of 1e-12 leaves forces good to about 4e-9.
     """
     stuff = material(0.3, 0.1)
     floor, disks = _stack(50, stuff)
@@ -398,14 +404,15 @@ def _reactions():
 
 @check("A time step that changes at rest does nothing", subject="Statics", seconds=1)
 def changed_time_step(bench):
-    """The solve starts from the last step's reactions. They are kept as forces and multiplied by the present h, so that a stack at rest
-    stays solved whatever O.dt becomes: impulses and free velocities are both proportional to h, and the relative residual does not
-    change. A start from the last impulses themselves would be off by the ratio of the steps, and here nothing may repair it: after a
-    tight solve at h = 5 ms the solver is left with one plain sweep a step at most and a tolerance of 1e-7.
+    """The solve starts from the last step's reactions. They are kept as forces and multiplied by the present h, so that
+    a stack at rest stays solved whatever O.dt becomes: impulses and free velocities are both proportional to h, and the
+    relative residual does not change. A start from the last impulses themselves would be off by the ratio of the steps,
+    and here nothing may repair it: after a tight solve at h = 5 ms the solver is left with one plain sweep a step at
+    most and a tolerance of 1e-7.
 
-    Two structures at rest: a stack of 20 disks (normal forces only), and a row of three disks bonded to a fixed one under gravity
-    (shear forces and torques; no normal force at all). Both must keep all reactions while h jumps by factors between 1/10 and 4,
-    without a single sweep.
+    Two structures at rest: a stack of 20 disks (normal forces only), and a row of three disks bonded to a fixed one
+    under gravity (shear forces and torques; no normal force at all). Both must keep all reactions while h jumps by
+    factors between 1/10 and 4, without a single sweep.
     """
     claims, rows = Claims(), []
     steps = (5e-3, 2.5e-3, 1e-2, 1e-3, 4e-3)

@@ -36,8 +36,8 @@ PULL = 0.02  # m/s in tension
 def strength(folder, seed, pull, time_step, tolerance, speed, strain):
     """Peak stress of a bonded sample of the shipped section's rock between two platens.
 
-    ``pull``: 1 for tension, with platens glued on, 0 for compression; ``speed`` [m/s] of the upper platen, reached after a ramp;
-    ``strain``: at the end. The curve goes to ``curve.npz`` in the folder.
+    ``pull``: 1 for tension, with platens glued on, 0 for compression; ``speed`` [m/s] of the upper platen, reached
+    after a ramp; ``strain``: at the end. The curve goes to ``curve.npz`` in the folder.
     """
     from yade import O
     from yade.wrapper import NscdMat
@@ -103,9 +103,9 @@ KEEP = (
 
 
 def slope(folder, disks, seed, time_step, tolerance, tolerance_moving, slack=None, bond=None):
-    """The shipped section with about so many disks, or with ``disks`` = 0 the small section of the tests, until its avalanche rests; ``slack``: errors of position
-    that stay [ℓ], None: those that stay in slopes; ``bond``: before or after gravity has grown, None: as the section has it. The packing is made with the section's own
-    numbers.
+    """The shipped section with about so many disks, or with ``disks`` = 0 the small section of the tests, until its
+    avalanche rests; ``slack``: errors of position that stay [ℓ], None: those that stay in slopes; ``bond``: before or
+    after gravity has grown, None: as the section has it. The packing is made with the section's own numbers.
     """
     from ... import records
     from ...measure import characteristic_times
@@ -160,7 +160,9 @@ class Sweep:
 
     @classmethod
     def of(cls, cases, found, key, quantity, default, **fixed):
-        """From the cases in which all but ``key`` have the values in ``fixed``; cases without the quantity (None) are left out."""
+        """From the cases in which all but ``key`` have the values in ``fixed``; cases without the quantity (None) are
+        left out.
+        """
         values = {}
         for case, result in zip(cases, found):
             if all(case[name] == value for name, value in fixed.items()) and result[quantity] is not None:
@@ -173,7 +175,9 @@ class Sweep:
         return min(self.values)
 
     def change(self, value, reference):
-        """Change from ``reference`` to ``value`` of the same seeds over the mean of the reference's: (mean, its standard error; NaN for one seed)."""
+        """Change from ``reference`` to ``value`` of the same seeds over the mean of the reference's: (mean, its
+        standard error; NaN for one seed).
+        """
         a, b = self.values[value], self.values[reference]
         common = [seed for seed in a if seed in b]
         changes, mean = [a[seed] - b[seed] for seed in common], np.mean([b[seed] for seed in common])
@@ -192,7 +196,8 @@ class Sweep:
     def draw(self, ax, scale, relative):
         """Every seed as a thin line, the mean with its standard error as a thick one; the default as a dashed vertical.
 
-        ``relative``: changes from the finest value in per cent of its mean (see :meth:`change`) instead of the quantity times ``scale``.
+        ``relative``: changes from the finest value in per cent of its mean (see :meth:`change`) instead of the quantity
+        times ``scale``.
         """
         order, points = sorted(self.values), {}
         for v in order:
@@ -224,7 +229,8 @@ class Sweep:
         ax.minorticks_off()
         if relative:
             ax.axhline(0, color="#555555", lw=0.7)
-            # at least 5 %, so that a rounding error does not fill the panel, and what the panels that share the axis need
+            # at least 5 %, so that a rounding error does not fill the panel, and what the panels that share the axis
+            # need
             reach = max(5, *(1.2 * abs(x) for line in points.values() for x in line.values()), *map(abs, ax.get_ylim()))
             ax.set_ylim(-reach, reach)
         else:
@@ -259,7 +265,9 @@ def _plus_minus(error):
 
 @style.styled
 def sheet(bench, name, title, panels, relative=False):
-    """Panels side by side, (sweep, scale, label of the y axis) each; written into the check's folder as ``name`` and returned."""
+    """Panels side by side, (sweep, scale, label of the y axis) each; written into the check's folder as ``name`` and
+    returned.
+    """
     figure = style.figure(3.2 * len(panels), 3.3, layout="constrained")
     for ax, (sweep, scale, label) in zip(figure.subplots(1, len(panels), squeeze=False, sharey=relative)[0], panels):
         sweep.draw(ax, scale, relative)
@@ -272,17 +280,19 @@ def sheet(bench, name, title, panels, relative=False):
 
 @check("Strength of a bonded sample against time step and tolerance", subject=SUBJECT, seconds=250, quick=35)
 def strength_convergence(bench):
-    """A bond resists with an impulse of up to h F_a a step, so a bad choice of the time step h can lend a sample strength that is not in its
-    bonds: Abramian and Staron (2020) show for Contact Dynamics that a larger h raises the effective cohesion. Bonds are also
-    looked at once a step, so a bond that is being pulled apart at the speed u outlives its ellipse by up to u h. A loose tolerance goes the other way: what is not
-    solved creeps, and fails early. What is claimed is the change from the finest value to the default, and from one value to the next up to ten times the default; a
-    tolerance of a hundred times the default is run too, to show what it does.
+    """A bond resists with an impulse of up to h F_a a step, so a bad choice of the time step h can lend a sample
+    strength that is not in its bonds: Abramian and Staron (2020) show for Contact Dynamics that a larger h raises the
+    effective cohesion. Bonds are also looked at once a step, so a bond that is being pulled apart at the speed u
+    outlives its ellipse by up to u h. A loose tolerance goes the other way: what is not solved creeps, and fails early.
+    What is claimed is the change from the finest value to the default, and from one value to the next up to ten times
+    the default; a tolerance of a hundred times the default is run too, to show what it does.
 
-    A sample of 30 m by 60 m, about 500 disks of the shipped section's rock, all bonded, is compressed between two platens at 0.05 m/s, and
-    pulled at 0.02 m/s between platens that it is glued to. There is no gravity and no lateral pressure. The strength is the largest mean stress over
-    half a second, taken as the mean of both platens. Inertia: the ramp of 4 s takes ρ H v̇ below 2 kPa. Changes are taken sample by
-    sample, so that the scatter between samples, which is far larger, drops out. What remains is that a sample of rigid disks with friction has several
-    ways to fail at nearly the same load; runs at half the platen's speed show how much that is.
+    A sample of 30 m by 60 m, about 500 disks of the shipped section's rock, all bonded, is compressed between two
+    platens at 0.05 m/s, and pulled at 0.02 m/s between platens that it is glued to. There is no gravity and no lateral
+    pressure. The strength is the largest mean stress over half a second, taken as the mean of both platens. Inertia:
+    the ramp of 4 s takes ρ H v̇ below 2 kPa. Changes are taken sample by sample, so that the scatter between samples,
+    which is far larger, drops out. What remains is that a sample of rigid disks with friction has several ways to fail
+    at nearly the same load; runs at half the platen's speed show how much that is.
     """
     seeds = (1,) if bench.quick else (1, 2, 3, 4)
     steps, tolerances = (STEPS[1:3], TOLERANCES[1:3]) if bench.quick else (STEPS, TOLERANCES)
@@ -399,8 +409,9 @@ KINDS = {"compression": dict(pull=0, speed=SPEED, strain=0.002), "tension": dict
 
 @dataclasses.dataclass(frozen=True)
 class Slopes:
-    """What :func:`slope_convergence` looks at: ``disks`` of :func:`slope`; values of its numbers, coarse to fine, with the default of each; packings that
-    ``compared`` default and finest, and those of the values ``between``; the water [m] that a packing must bear to be looked at (``stands``).
+    """What :func:`slope_convergence` looks at: ``disks`` of :func:`slope`; values of its numbers, coarse to fine, with
+    the default of each; packings that ``compared`` default and finest, and those of the values ``between``; the water
+    [m] that a packing must bear to be looked at (``stands``).
     """
 
     disks: int
@@ -424,19 +435,22 @@ QUICK = Slopes(0, (5e-3, 2.5e-3), 5e-3, (1e-4, 1e-5), 1e-4, (2e-3, 5e-4), 2e-3, 
 
 @check("Failure and runout of the slope against time step and tolerance", subject=SUBJECT, seconds=3000, quick=15)
 def slope_convergence(bench):
-    """The whole experiment of the shipped section, with 3,000 disks instead of 21,000. The packing is made once, with the section's own numbers, and bonded before
-    gravity grows on it, so that all runs of a packing begin with the same disks and the same bonds: a packing that is bonded where it rests has other bonds with every
-    other number, and is another slope. Packings that move before the water has risen by 1 m are left out. Loading, rise of the water by 1 m/s, failure and avalanche are those of
-    ``scripts/jiufengershan.py``, but for at most 1,000 sweeps a step instead of 300, so that tight tolerances are reached.
+    """The whole experiment of the shipped section, with 3,000 disks instead of 21,000. The packing is made once, with
+    the section's own numbers, and bonded before gravity grows on it, so that all runs of a packing begin with the same
+    disks and the same bonds: a packing that is bonded where it rests has other bonds with every other number, and is
+    another slope. Packings that move before the water has risen by 1 m are left out. Loading, rise of the water by 1
+    m/s, failure and avalanche are those of ``scripts/jiufengershan.py``, but for at most 1,000 sweeps a step instead of
+    300, so that tight tolerances are reached.
 
-    Two results count. The height of the water when the slope begins to move (mean speed 0.2 m/s) comes from the strength of the foot at
-    rest, so it must not depend on the time step or on ``tolerance``. The runout is that of many collisions; two runs that differ in anything, if only in the last bit, lead to different places of
-    single disks. So a change is taken as the mean over packings, packing by packing: ten for the defaults against the finest value of each
-    number, three for the values between, which show where a trend begins. (With three packings for all, the runout's mean change had a
-    standard error of 9 %, which cannot tell 15 % from nothing.)
+    Two results count. The height of the water when the slope begins to move (mean speed 0.2 m/s) comes from the
+    strength of the foot at rest, so it must not depend on the time step or on ``tolerance``. The runout is that of many
+    collisions; two runs that differ in anything, if only in the last bit, lead to different places of single disks. So
+    a change is taken as the mean over packings, packing by packing: ten for the defaults against the finest value of
+    each number, three for the values between, which show where a trend begins. (With three packings for all, the
+    runout's mean change had a standard error of 9 %, which cannot tell 15 % from nothing.)
 
-    In a quick run the small section of the tests takes its place, with two packings, the default and one finer value of each number; so
-    few scatter more, and the limits are three times as wide.
+    In a quick run the small section of the tests takes its place, with two packings, the default and one finer value of
+    each number; so few scatter more, and the limits are three times as wide.
     """
     k = QUICK if bench.quick else FULL
     # what counts most first, so that an interrupted check has something of everything
@@ -542,7 +556,9 @@ def slope_convergence(bench):
 
 
 def _standing(bench, kind, case):
-    """Seeds of the first packings that bear the dry slope, as many as are compared, and of those that were passed over. ``case``: of a seed."""
+    """Seeds of the first packings that bear the dry slope, as many as are compared, and of those that were passed over.
+    ``case``: of a seed.
+    """
     seeds, standing, fallen = list(SLOPE_SEEDS), [], []
     while seeds and len(standing) < kind.compared:
         lacking = kind.compared - len(standing)

@@ -31,9 +31,10 @@ def of_disks(
 ) -> ContactProblem:
     """The first step of disks at rest, or with ``free_velocity`` (n, 3), by the same formulas as the engine's.
 
-    ``x, y, r``: (n,) [m]; ``walls``: half-planes (x, y, n_x, n_y) with the normal into the free side; they become fixed bodies after the
-    disks. ``inverse_mass``: (n, 3), default from ``density`` [kg/m³]; ``reach``: largest gap of a contact [m]; ``relaxation``: share of an
-    overlap taken back; ``friction``, ``rolling``: μ_s and μ_r. No cohesion. Impulses and velocities of the solution are zero.
+    ``x, y, r``: (n,) [m]; ``walls``: half-planes (x, y, n_x, n_y) with the normal into the free side; they become fixed
+    bodies after the disks. ``inverse_mass``: (n, 3), default from ``density`` [kg/m³]; ``reach``: largest gap of a
+    contact [m]; ``relaxation``: share of an overlap taken back; ``friction``, ``rolling``: μ_s and μ_r. No cohesion.
+    Impulses and velocities of the solution are zero.
     """
     x, y, r = (np.asarray(v, float) for v in (x, y, r))
     count = len(x)
@@ -103,11 +104,12 @@ def below(problem, height) -> ContactProblem:
 
 
 def random_cluster(seed, disks, *, rolling=False, cohesion=False) -> ContactProblem:
-    """A step of ``disks`` disks that fly at each other and at a floor: radii, masses, places, velocities and strengths by chance.
+    """A step of ``disks`` disks that fly at each other and at a floor: radii, masses, places, velocities and strengths
+    by chance.
 
-    A fifth of the disks cannot turn and without rolling resistance one in eight cannot move sideways, so that blocks of W are not all of one
-    form (with rolling resistance such a block is singular, which Siconos refuses). ``rolling``, ``cohesion``: contacts have these, a
-    third of them none.
+    A fifth of the disks cannot turn and without rolling resistance one in eight cannot move sideways, so that blocks of
+    W are not all of one form (with rolling resistance such a block is singular, which Siconos refuses). ``rolling``,
+    ``cohesion``: contacts have these, a third of them none.
     """
     dice = np.random.default_rng(seed)
     x, y, r = _touching(dice, disks)

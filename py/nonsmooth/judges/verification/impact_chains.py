@@ -74,14 +74,17 @@ def kinetic(disks):
 
 @check("Impacts that follow from impacts in one step", subject="Impacts", seconds=20, quick=8)
 def following_impacts(bench):
-    """A disk with 10 m/s hits a row of others at rest, with gaps that are smaller than the 10 mm it goes in a step. Each disk that is hit hits the next in the
-    same step. Newton's law for each impact in its turn gives, for equal disks, u = (1 − e) v/2 to the first and (1 + e) v/2 to the second. With e = 1 all speed
-    goes to the last disk, whatever the gaps, and energy is kept. With e < 1 the wave gets slower and those behind catch up, again and again; a
+    """A disk with 10 m/s hits a row of others at rest, with gaps that are smaller than the 10 mm it goes in a step.
+    Each disk that is hit hits the next in the same step. Newton's law for each impact in its turn gives, for equal
+    disks, u = (1 − e) v/2 to the first and (1 + e) v/2 to the second. With e = 1 all speed goes to the last disk,
+    whatever the gaps, and energy is kept. With e < 1 the wave gets slower and those behind catch up, again and again; a
     few lines of Python that look for the next impact and go there say where and how fast all disks are.
 
-    If such impacts were left to the step's solve (``maxImpacts=0``), all but the first would stop without restitution, since their gaps have not closed at the step's beginning.
+    If such impacts were left to the step's solve (``maxImpacts=0``), all but the first would stop without restitution,
+    since their gaps have not closed at the step's beginning.
 
-    In a gas of 50 elastic disks that fill half of a box, a part of the impacts is of this kind: energy is kept if these are followed, and lost if they are not.
+    In a gas of 50 elastic disks that fill half of a box, a part of the impacts is of this kind: energy is kept if these
+    are followed, and lost if they are not.
     """
     claims, figure = Claims(), Figure(figsize=(10, 3.4), constrained_layout=True)
     kept, course, box = figure.subplots(1, 3)

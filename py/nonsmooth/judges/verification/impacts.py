@@ -20,13 +20,13 @@ EXACT = "the impact law is exact; left are the solve, 1e-12, and rounding"
 
 @check("Restitution head-on", subject="Impacts", seconds=1)
 def restitution_head_on(bench):
-    """Newton's impact law: the speed of approach times e is the speed of separation. For two equal disks with v₁ = 1 and v₂ = −2 m/s the
-    centre of mass keeps −0.5 m/s and the approach is 3 m/s, so they leave with −0.5 ∓ 1.5 e. The loss is (1 − e²) times the energy of
-    approach, ½ (m/2) 3². Against a wall a disk leaves with −e times its speed and loses (1 − e²) ½ m v². Of two coefficients the larger
-    holds: one body has e, the other none.
+    """Newton's impact law: the speed of approach times e is the speed of separation. For two equal disks with v₁ = 1
+    and v₂ = −2 m/s the centre of mass keeps −0.5 m/s and the approach is 3 m/s, so they leave with −0.5 ∓ 1.5 e. The
+    loss is (1 − e²) times the energy of approach, ½ (m/2) 3². Against a wall a disk leaves with −e times its speed and
+    loses (1 − e²) ½ m v². Of two coefficients the larger holds: one body has e, the other none.
 
-    With e = 0 a gap that closes within a step is first closed exactly and the rest of the speed lost in the next step; with e > 0 the
-    bodies part in the step in which they would meet.
+    With e = 0 a gap that closes within a step is first closed exactly and the rest of the speed lost in the next step;
+    with e > 0 the bodies part in the step in which they would meet.
     """
     claims = Claims()
     for e in (0.0, 0.5, 1.0):
@@ -55,11 +55,11 @@ def restitution_head_on(bench):
 
 @check("A disk that falls lands on the floor", subject="Impacts", seconds=1)
 def landing(bench):
-    """A disk falls from rest through H = 0.1 m onto a floor with e = 0. In the scheme it falls by g h² n(n+1)/2 in n steps. The step in
-    which it would pass the floor closes the gap exactly, neither more nor less (Signorini's condition with the gap in it: U + g/h ≥ 0),
-    so the disk rests with a gap of zero and no overlap. The loss is m g H exactly: what the balance misses in a step, m g h times half
-    its gain of speed, sums to nothing between rest and rest. Until it touches, the contact, which is known beforehand, must not carry
-    force.
+    """A disk falls from rest through H = 0.1 m onto a floor with e = 0. In the scheme it falls by g h² n(n+1)/2 in n
+    steps. The step in which it would pass the floor closes the gap exactly, neither more nor less (Signorini's
+    condition with the gap in it: U + g/h ≥ 0), so the disk rests with a gap of zero and no overlap. The loss is m g H
+    exactly: what the balance misses in a step, m g h times half its gain of speed, sums to nothing between rest and
+    rest. Until it touches, the contact, which is known beforehand, must not carry force.
     """
     stuff, height = material(0.3), 0.1
     wall([(-5, 0), (5, 0)], stuff)
@@ -88,7 +88,9 @@ def landing(bench):
 
 
 def _glance(ratio, e, friction, spin, pair, speed=1.0):
-    """Slip, normal speed and r ω after the impact of a disk with the normal speed ``speed`` and the slip ``ratio`` · ``speed``, in its units."""
+    """Slip, normal speed and r ω after the impact of a disk with the normal speed ``speed`` and the slip ``ratio`` ·
+    ``speed``, in its units.
+    """
     O.reset()
     stuff = material(friction, restitution=e)
     slip = ratio * speed
@@ -112,14 +114,14 @@ def _glance(ratio, e, friction, spin, pair, speed=1.0):
 
 @check("Oblique impacts stick or slide", subject="Impacts", seconds=1)
 def oblique_impact(bench):
-    """A disk meets a wall with the normal speed U_n and the slip U_t of its rim. The impulse P_n = m (1 + e) U_n stops and returns it. At
-    the rim the effective mass against slip is 1/(1/m + r²/I) = m/3, so to end the slip takes P_t = m U_t/3. That is below μ P_n if U_t
-    ≤ 3 μ (1 + e) U_n: the impact *sticks*, U_t⁺ = 0. Otherwise it *slides* and U_t⁺ = U_t − 3 μ (1 + e) U_n. Either way the spin
-    changes by r Δω = 2 P_t/m.
+    """A disk meets a wall with the normal speed U_n and the slip U_t of its rim. The impulse P_n = m (1 + e) U_n stops
+    and returns it. At the rim the effective mass against slip is 1/(1/m + r²/I) = m/3, so to end the slip takes P_t = m
+    U_t/3. That is below μ P_n if U_t ≤ 3 μ (1 + e) U_n: the impact *sticks*, U_t⁺ = 0. Otherwise it *slides* and U_t⁺ =
+    U_t − 3 μ (1 + e) U_n. Either way the spin changes by r Δω = 2 P_t/m.
 
-    Two equal disks have half the mass against approach, m/2, and half that against slip, m/6: the same limit, the same slip after. In
-    the computation the graphs are asked at the end of the step, so friction sees the whole impulse P_n, restitution included, and does
-    not return slip.
+    Two equal disks have half the mass against approach, m/2, and half that against slip, m/6: the same limit, the same
+    slip after. In the computation the graphs are asked at the end of the step, so friction sees the whole impulse P_n,
+    restitution included, and does not return slip.
     """
     friction, claims = 0.2, Claims()
     ratios = np.linspace(0, 2, 9 if bench.quick else 21)
@@ -166,14 +168,15 @@ def oblique_impact(bench):
 
 @check("Newton's cradle, with and without gaps", subject="Impacts", seconds=1)
 def cradle(bench):
-    """A disk with the speed 1 hits a row of four others at rest, e = 1. In a real cradle the blow is handed on in turn, and only the last
-    one leaves. A scheme that balances a step at once does that only if there are gaps: with gaps of more than one step's way each
-    impact has a step of its own, and two equal disks exchange velocities.
+    """A disk with the speed 1 hits a row of four others at rest, e = 1. In a real cradle the blow is handed on in turn,
+    and only the last one leaves. A scheme that balances a step at once does that only if there are gaps: with gaps of
+    more than one step's way each impact has a step of its own, and two equal disks exchange velocities.
 
-    If the disks touch, all contacts act in the same step. Newton's law asks for U⁺ ≥ −e U⁻ at each: separation with e at the first
-    contact, and no approach at the others, where there was none before. So the four move as one, with v + e, and momentum gives v = (1
-    − 4 e)/5 for the first disk: it comes back with 0.6 and the four leave with 0.4. Momentum and energy are kept just as well. This is
-    a property of Newton's law for several impacts at once, shared by every Moreau-type scheme; it is no error, but no cradle either.
+    If the disks touch, all contacts act in the same step. Newton's law asks for U⁺ ≥ −e U⁻ at each: separation with e
+    at the first contact, and no approach at the others, where there was none before. So the four move as one, with v +
+    e, and momentum gives v = (1 − 4 e)/5 for the first disk: it comes back with 0.6 and the four leave with 0.4.
+    Momentum and energy are kept just as well. This is a property of Newton's law for several impacts at once, shared by
+    every Moreau-type scheme; it is no error, but no cradle either.
     """
     claims = Claims()
     for gap, expected in ((2e-3, (0, 0, 0, 0, 1)), (0.0, (-0.6, 0.4, 0.4, 0.4, 0.4))):
@@ -197,8 +200,8 @@ def cradle(bench):
 
 
 class Chain:
-    """Disks in a row between a wall at the left and a force F [N] on the last one, at rest, slightly overlapping, with no correction of
-    overlaps.
+    """Disks in a row between a wall at the left and a force F [N] on the last one, at rest, slightly overlapping, with
+    no correction of overlaps.
 
     ``at_rest``: the reactions that balance F are there already; else none.
     """
@@ -248,8 +251,8 @@ def expected_oscillation(mode, sweeps, order=None):
 
 
 def random_chain(count, sweeps, steps, seed=1):
-    """The same chain with sweeps in random order, in plain Python: amplitude of the gravest mode's velocity after each step, the initial
-    one first.
+    """The same chain with sweeps in random order, in plain Python: amplitude of the gravest mode's velocity after each
+    step, the initial one first.
 
     Unit mass; impulses are taken from those at rest, which changes nothing in a linear problem.
     """
@@ -275,30 +278,34 @@ def random_chain(count, sweeps, steps, seed=1):
     "A chain that is not solved behaves elastically, a solved one does not", subject="Incomplete convergence", seconds=2
 )
 def elastic_chain(bench):
-    """A chain of rigid disks solved with a fixed number N of Gauss-Seidel sweeps a step carries damped sound waves (Unger, Brendel, Wolf
-    and Kertész 2002, Phys. Rev. E 65, 061305; Unger and Kertész 2002, arXiv:cond-mat/0211696). Their chain, 50 disks between a wall and
-    a constant force, has c = √(q N) d/h and the diffusion q N d²/h with q = 0.797. With N = 40 this means a period of 35.6 steps for
-    the gravest mode and a decay time of 63.5. Here is why, and what our order of sweeps must give instead.
+    """A chain of rigid disks solved with a fixed number N of Gauss-Seidel sweeps a step carries damped sound waves
+    (Unger, Brendel, Wolf and Kertész 2002, Phys. Rev. E 65, 061305; Unger and Kertész 2002, arXiv:cond-mat/0211696).
+    Their chain, 50 disks between a wall and a constant force, has c = √(q N) d/h and the diffusion q N d²/h with q =
+    0.797. With N = 40 this means a period of 35.6 steps for the gravest mode and a decay time of 63.5. Here is why, and
+    what our order of sweeps must give instead.
 
-    *One step.* Let W be the Delassus operator of the normal contacts, G the iteration matrix of one sweep, P the impulses that a step
-    starts from and P* those that solve it. N sweeps leave the error e = Gᴺ (P − P*), and the velocities at the end of the step miss the
-    law by U = W e. The next step has to undo U, so its solution is P*′ = P_s − W⁻¹ U = P_s − e, with P_s the impulses at rest. It
-    starts from P* + e. So errors obey e″ = Gᴺ (2 e′ − e): with γ an eigenvalue of Gᴺ, z² = γ (2 z − 1), z = γ ± i √(γ (1 − γ)) and z z̄
-    = γ. A mode decays by √γ a step and turns by arccos √γ a step.
+    *One step.* Let W be the Delassus operator of the normal contacts, G the iteration matrix of one sweep, P the
+    impulses that a step starts from and P* those that solve it. N sweeps leave the error e = Gᴺ (P − P*), and the
+    velocities at the end of the step miss the law by U = W e. The next step has to undo U, so its solution is P*′ = P_s
+    − W⁻¹ U = P_s − e, with P_s the impulses at rest. It starts from P* + e. So errors obey e″ = Gᴺ (2 e′ − e): with γ
+    an eigenvalue of Gᴺ, z² = γ (2 z − 1), z = γ ± i √(γ (1 − γ)) and z z̄ = γ. A mode decays by √γ a step and turns by
+    arccos √γ a step.
 
-    *One sweep.* For a chain with one wall and one free end Jacobi's iteration matrix has the eigenvalues cos κ, κ = (2 j − 1) π/(2 n),
-    with the shape cos κ c at contact c. Our contacts are swept in two colours (every other contact first), a consistent order in
-    Young's sense, where Gauss-Seidel has the squares: γ = cos κ to the power 2 N. In long waves this is exp(−q N κ²) with **q = 1**. So
-    with n = 50 and N = 40 the period is 2 π / arccos (cos κ)ᴺ = 31.7 steps and the decay time −1/(N ln cos κ) = 50.7 steps.
+    *One sweep.* For a chain with one wall and one free end Jacobi's iteration matrix has the eigenvalues cos κ, κ = (2
+    j − 1) π/(2 n), with the shape cos κ c at contact c. Our contacts are swept in two colours (every other contact
+    first), a consistent order in Young's sense, where Gauss-Seidel has the squares: γ = cos κ to the power 2 N. In long
+    waves this is exp(−q N κ²) with **q = 1**. So with n = 50 and N = 40 the period is 2 π / arccos (cos κ)ᴺ = 31.7
+    steps and the decay time −1/(N ln cos κ) = 50.7 steps.
 
-    *Their q.* In a sweep of random order a contact takes the new impulse of a neighbour that came before it, else the old one.
-    Following the influence outwards, it goes on for as long as each next contact came earlier still: a run of m + 1 contacts in falling
-    order has the probability 1/(m + 1)!, and each link halves it. Summing the squares of the distances gives 2 q = 4 √e − 5, so **q = 2
-    √e − 5/2 = 0.7974**, their figure; with it the formulas above give 35.5 and 63.5 steps. A few lines of Python that sweep at random
-    show it.
+    *Their q.* In a sweep of random order a contact takes the new impulse of a neighbour that came before it, else the
+    old one. Following the influence outwards, it goes on for as long as each next contact came earlier still: a run of
+    m + 1 contacts in falling order has the probability 1/(m + 1)!, and each link halves it. Summing the squares of the
+    distances gives 2 q = 4 √e − 5, so **q = 2 √e − 5/2 = 0.7974**, their figure; with it the formulas above give 35.5
+    and 63.5 steps. A few lines of Python that sweep at random show it.
 
-    *The solved chain.* With the accelerated method and a tolerance of 1e-10 there is no wave: a force put on the end of a chain without
-    forces is at the wall in the same step, and nothing moves. After 40 plain sweeps the wall feels nothing of it yet.
+    *The solved chain.* With the accelerated method and a tolerance of 1e-10 there is no wave: a force put on the end of
+    a chain without forces is at the wall in the same step, and nothing moves. After 40 plain sweeps the wall feels
+    nothing of it yet.
     """
     figure, claims, rows = Figure(figsize=(7.4, 3.4)), Claims(), []
     wave, law = figure.subplots(1, 2)

@@ -17,18 +17,20 @@ SUBJECT = "A packing of 5,000 disks by LMGC90"
 
 @check("LMGC90's step in our arrays: geometry, velocities, momentum and graphs", subject=SUBJECT, seconds=3)
 def lmgc90_step_in_our_arrays(bench):
-    """LMGC90 2025.rc1 wrote out one step of 5,000 disks at rest in a box: positions, velocities before and after, and for each of 10,531
-    contacts the forces, the gap at the end and the relative velocities. The disks are put into YADE at x + h/2 v, where LMGC90 (θ = 1/2)
-    looks at its contacts. Our contact problem is then its problem: same pairs, frames, gaps g and free velocities v + h g.
+    """LMGC90 2025.rc1 wrote out one step of 5,000 disks at rest in a box: positions, velocities before and after, and
+    for each of 10,531 contacts the forces, the gap at the end and the relative velocities. The disks are put into YADE
+    at x + h/2 v, where LMGC90 (θ = 1/2) looks at its contacts. Our contact problem is then its problem: same pairs,
+    frames, gaps g and free velocities v + h g.
 
-    Held against its figures: gap + h vn must be its gap at the end; its velocities after the step must give its vn and vt in our frames;
-    with its forces as impulses, M (v⁺ − v)/h must equal weight plus forces for every disk; and the natural map must vanish to what its own
-    tolerance allows. LMGC90 stopped at "Quad" 1e-6, so our figure of that test must come out just below 1e-6 for its forces: this checks
-    our reading of the test.
+    Held against its figures: gap + h vn must be its gap at the end; its velocities after the step must give its vn and
+    vt in our frames; with its forces as impulses, M (v⁺ − v)/h must equal weight plus forces for every disk; and the
+    natural map must vanish to what its own tolerance allows. LMGC90 stopped at "Quad" 1e-6, so our figure of that test
+    must come out just below 1e-6 for its forces: this checks our reading of the test.
 
-    Two differences are known. LMGC90 writes vn and vt as each contact's own last visit left them, exactly 0 where it presses, and the
-    bodies' velocities from the reactions before that visit: they differ by that visit's change. And its levers are the radii, where ours
-    reach to the middle of the gap or overlap, r + g/2; for comparison, its levers are put into our arrays."""
+    Two differences are known. LMGC90 writes vn and vt as each contact's own last visit left them, exactly 0 where it
+    presses, and the bodies' velocities from the reactions before that visit: they differ by that visit's change. And
+    its levers are the radii, where ours reach to the middle of the gap or overlap, r + g/2; for comparison, its levers
+    are put into our arrays."""
     dump = lp.load()
     engine = lp.build(dump, tolerance=1e-3)
     O.step()
@@ -111,8 +113,8 @@ def lmgc90_step_in_our_arrays(bench):
 
 
 def _missed(dump, engine):
-    """What the step's contact forces and weight miss of M (v⁺ − v)/h, (n, 2) [N] and (n,) [N m]; from the scene's interactions and states, not
-    from the solver's arrays."""
+    """What the step's contact forces and weight miss of M (v⁺ − v)/h, (n, 2) [N] and (n,) [N m]; from the scene's
+    interactions and states, not from the solver's arrays."""
     table, after = tables.contacts(engine), tables.bodies(engine)
     first, second = table["id1"], table["id2"]
     n = np.c_[table["nx"], table["ny"]]  # YADE's, from the first body to the second; turned about, n and t keep N and T
@@ -129,7 +131,9 @@ def _missed(dump, engine):
 
 
 def _over_mean_at_depth(force, height, layers=15):
-    """N/⟨N⟩ with the mean of the layer that a contact stands in, of layers that hold equally many contacts: forces grow with depth."""
+    """N/⟨N⟩ with the mean of the layer that a contact stands in, of layers that hold equally many contacts: forces grow
+    with depth.
+    """
     layer = np.searchsorted(np.quantile(height, np.linspace(0, 1, layers + 1)[1:-1]), height)
     return force / (np.bincount(layer, force) / np.bincount(layer))[layer]
 
@@ -138,15 +142,17 @@ def _over_mean_at_depth(force, height, layers=15):
 def lmgc90_step_by_us(bench):
     """The step is solved by YADE from a cold start (no forces known), and by the solver again from LMGC90's forces.
 
-    What can be compared. Every disk's momentum must balance to rounding, whatever the solver's tolerance, since velocities are made from
-    the forces. What the floor carries and the momentum left must add up to the weight. The distribution of normal forces and the number of
-    pressed contacts are properties of the packing and must agree within what two solutions of one packing differ. Under gravity forces grow
-    with depth, so N is taken over the mean ⟨N⟩ of its layer (a fifteenth of the contacts).
+    What can be compared. Every disk's momentum must balance to rounding, whatever the solver's tolerance, since
+    velocities are made from the forces. What the floor carries and the momentum left must add up to the weight. The
+    distribution of normal forces and the number of pressed contacts are properties of the packing and must agree within
+    what two solutions of one packing differ. Under gravity forces grow with depth, so N is taken over the mean ⟨N⟩ of
+    its layer (a fifteenth of the contacts).
 
-    What cannot. A rigid packing with friction is hyperstatic: its single forces are not unique. LMGC90 itself, started cold on this
-    packing, differs from the forces it was warm started with by 0.3 to 0.43 of the mean normal force (rms), with a correlation of 0.95.
-    Ours may differ as much, not more. Nor is the floor's share exact: a cold solve leaves to fall what a solve that knows the forces holds,
-    here about 1 % (disks whose gaps, up to g h² = 0.25 mm, may still close)."""
+    What cannot. A rigid packing with friction is hyperstatic: its single forces are not unique. LMGC90 itself, started
+    cold on this packing, differs from the forces it was warm started with by 0.3 to 0.43 of the mean normal force
+    (rms), with a correlation of 0.95. Ours may differ as much, not more. Nor is the floor's share exact: a cold solve
+    leaves to fall what a solve that knows the forces holds, here about 1 % (disks whose gaps, up to g h² = 0.25 mm, may
+    still close)."""
     dump = lp.load()
     engine = lp.build(dump, tolerance=1e-5)
     O.step()
@@ -310,17 +316,19 @@ def _scatter(theirs, ours, mean):
 def lmgc90_packing_stays_at_rest(bench):
     """The scene starts from LMGC90's velocities and forces and makes a hundred steps of 5 ms.
 
-    With κ = 0 no overlap is taken back, as in LMGC90, and nothing should happen but what was happening: a few rattlers fall and roll (they
-    hold 112 of the 115 J in LMGC90's step, and gain more as they go on). What must not happen is a drift of the disks that carry:
-    displacements that grow with the number of steps. An error of the solve of relative size τ lets them creep, by a distance proportional
-    to τ, so the median displacement must fall tenfold when τ does. The same error makes the packing swing slowly, as Unger and Kertész
-    (2002) derived for chains: what is not converged acts as elasticity. The kinetic energy of the carrying disks, the fastest hundredth
-    apart (rattlers' neighbours), is compared with W g h²/2 = 83 kJ, what all disks would gain by falling freely for one step. "Carrying" is
-    a disk whose normal forces in LMGC90's step add up to three times its weight or more.
+    With κ = 0 no overlap is taken back, as in LMGC90, and nothing should happen but what was happening: a few rattlers
+    fall and roll (they hold 112 of the 115 J in LMGC90's step, and gain more as they go on). What must not happen is a
+    drift of the disks that carry: displacements that grow with the number of steps. An error of the solve of relative
+    size τ lets them creep, by a distance proportional to τ, so the median displacement must fall tenfold when τ does.
+    The same error makes the packing swing slowly, as Unger and Kertész (2002) derived for chains: what is not converged
+    acts as elasticity. The kinetic energy of the carrying disks, the fastest hundredth apart (rattlers' neighbours), is
+    compared with W g h²/2 = 83 kJ, what all disks would gain by falling freely for one step. "Carrying" is a disk whose
+    normal forces in LMGC90's step add up to three times its weight or more.
 
-    With κ = 0.2, our default, LMGC90's overlaps (up to 1.2e-4 ℓ, mean 3e-6 ℓ) are taken back at once. Pushing apart 30 layers by κ g/h each
-    sends the whole packing up by some mm/s: the floor bears up to 1.16 of the weight in the first step, and the energy dies out in some
-    fifty steps. That is a property of the overlaps it begins with; they must shrink, and the floor must bear the weight on the mean.
+    With κ = 0.2, our default, LMGC90's overlaps (up to 1.2e-4 ℓ, mean 3e-6 ℓ) are taken back at once. Pushing apart 30
+    layers by κ g/h each sends the whole packing up by some mm/s: the floor bears up to 1.16 of the weight in the first
+    step, and the energy dies out in some fifty steps. That is a property of the overlaps it begins with; they must
+    shrink, and the floor must bear the weight on the mean.
 
     The residual does not say whether the weight is borne: the sums over the walls are taken from O.forces."""
     dump = lp.load()
@@ -403,7 +411,9 @@ def lmgc90_packing_stays_at_rest(bench):
 
 
 def _hundred_steps(dump, carrying, tolerance, rate, steps=100):
-    """Histories of length ``steps``: sweeps, shares of the weight, energies [J], worst overlap [ℓ]; and ``moved``, of the carrying disks [m]."""
+    """Histories of length ``steps``: sweeps, shares of the weight, energies [J], worst overlap [ℓ]; and ``moved``, of
+    the carrying disks [m].
+    """
     O.reset()
     engine = lp.build(dump, tolerance=tolerance, relaxationRate=rate, maxIterations=5000)
     lp.warm_start(dump)

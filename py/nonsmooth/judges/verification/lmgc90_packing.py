@@ -1,11 +1,13 @@
-"""The packing at rest by LMGC90 (``tests/data``): its arrays, the YADE scene of the step that was written out, and sums over contacts.
+"""The packing at rest by LMGC90 (``tests/data``): its arrays, the YADE scene of the step that was written out, and sums
+over contacts.
 
-Signs. LMGC90's contact has n from j to i and t = (n_y, −n_x), and its force acts on i. Ours runs from the lower disk to the higher, from
-the wall to the disk, with t = n turned by +90°. All of LMGC90's pairs have i < j, walls last, so in our frame N = fn, T = −ft, U^n = vn,
-U^t = −vt.
+Signs. LMGC90's contact has n from j to i and t = (n_y, −n_x), and its force acts on i. Ours runs from the lower disk to
+the higher, from the wall to the disk, with t = n turned by +90°. All of LMGC90's pairs have i < j, walls last, so in
+our frame N = fn, T = −ft, U^n = vn, U^t = −vt.
 
-Times. LMGC90 (θ = 1/2) looks at the contacts where they are in the middle of the step, x + h/2 v, and allows gap + h vn ≥ 0 there. That is
-our step (θ = 1) begun at x + h/2 v, and it stays so from step to step: both move that point by h v⁺."""
+Times. LMGC90 (θ = 1/2) looks at the contacts where they are in the middle of the step, x + h/2 v, and allows gap + h vn
+≥ 0 there. That is our step (θ = 1) begun at x + h/2 v, and it stays so from step to step: both move that point by h
+v⁺."""
 
 from __future__ import annotations
 
@@ -66,7 +68,9 @@ class Dump:
 
 
 def load() -> Dump:
-    """Reads the step; raises FileNotFoundError saying where the files are where there is no checkout around this package."""
+    """Reads the step; raises FileNotFoundError saying where the files are where there is no checkout around this
+    package.
+    """
     disks, contacts = DATA / "lmgc90_5000_disks.txt.gz", DATA / "lmgc90_5000_contacts.txt.gz"
     for path in (disks, contacts):
         if not path.exists():
@@ -78,9 +82,11 @@ def load() -> Dump:
 
 
 def build(dump: Dump, **options):
-    """The step's beginning as the scene of YADE: disks are ids 0 to 4,999, then floor, left and right side; returns the engine.
+    """The step's beginning as the scene of YADE: disks are ids 0 to 4,999, then floor, left and right side; returns the
+    engine.
 
-    ``options``: attributes of ContactDynamicsEngine. The share of an overlap that a step takes back is 0 unless given, as in LMGC90.
+    ``options``: attributes of ContactDynamicsEngine. The share of an overlap that a step takes back is 0 unless given,
+    as in LMGC90.
     """
     stuff = NscdMat(density=DENSITY, frictionAngle=math.atan(MU))
     O.materials.append(stuff)
@@ -97,7 +103,9 @@ def build(dump: Dump, **options):
 
 
 def warm_start(dump: Dump):
-    """Gives the interactions of the scene just built LMGC90's forces; makes them by a step, after which the disks are put back."""
+    """Gives the interactions of the scene just built LMGC90's forces; makes them by a step, after which the disks are
+    put back.
+    """
     solver = engine()
     tolerance, solver.tolerance = solver.tolerance, 1e3  # the step's own solution is not wanted
     O.step()
@@ -119,7 +127,9 @@ def dump_step(path) -> contact.ContactProblem:
 
 
 def step_problem(folder):
-    """LMGC90's step, our contact problem for it, and LMGC90's forces as impulses of that, shape (c, 3). Leaves no scene, and ``folder/step.h5``."""
+    """LMGC90's step, our contact problem for it, and LMGC90's forces as impulses of that, shape (c, 3). Leaves no
+    scene, and ``folder/step.h5``.
+    """
     dump = load()
     build(dump, tolerance=1e-3)
     O.step()
@@ -162,7 +172,9 @@ def with_radius_levers(problem: contact.ContactProblem, dump: Dump) -> contact.C
 
 
 def relative_velocities(problem: contact.ContactProblem, velocity) -> np.ndarray:
-    """(U^n, U^t, w) of every contact for velocities of shape (b, 3), shape (c, 3); by the formulas of problem.hpp, written again."""
+    """(U^n, U^t, w) of every contact for velocities of shape (b, 3), shape (c, 3); by the formulas of problem.hpp,
+    written again.
+    """
     i, j = problem.body.T
     d, (nx, ny), l = velocity[j] - velocity[i], problem.normal.T, problem.lever
     wi, wj = velocity[i, 2], velocity[j, 2]

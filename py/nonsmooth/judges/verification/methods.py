@@ -36,19 +36,21 @@ def _work(curve, tolerance):
 
 @check("Ways to solve a contact problem, by work", subject=SUBJECT, seconds=330, quick=25)
 def ways_to_solve(bench):
-    """Which method reaches a residual with least work decides how fast a step is. Eight are held side by side on problems of this
-    project's scenes and LMGC90's packing, as prototypes in NumPy (:code:`sweep_methods`), which have nothing but the formulas in common with
-    the solver in C++. Work is counted in visits of every contact. A combination of velocities and impulses is not counted; ADMM's
-    factorisation and back substitution are, by their operations.
+    """Which method reaches a residual with least work decides how fast a step is. Eight are held side by side on
+    problems of this project's scenes and LMGC90's packing, as prototypes in NumPy (:code:`sweep_methods`), which have
+    nothing but the formulas in common with the solver in C++. Work is counted in visits of every contact. A combination
+    of velocities and impulses is not counted; ADMM's factorisation and back substitution are, by their operations.
 
-    What is expected: plain Gauss-Seidel spreads news as a diffusion does, so its work grows with the square of the thickness; over-relaxation
-    wins a constant; extrapolation makes a wave of it. Sweeps forth and back cost twice and spread both ways at once. A gradient of all contacts
-    at once must take steps short enough for the stiffest group of contacts and loses a factor. Conjugate gradients and Anderson's extrapolation
-    gain where the set of open and sliding contacts has settled, and fall back where it changes. ADMM solves for all velocities at once, but its
-    projections know nothing of each other, and a penalty that suits stiff rows is slow for soft ones.
+    What is expected: plain Gauss-Seidel spreads news as a diffusion does, so its work grows with the square of the
+    thickness; over-relaxation wins a constant; extrapolation makes a wave of it. Sweeps forth and back cost twice and
+    spread both ways at once. A gradient of all contacts at once must take steps short enough for the stiffest group of
+    contacts and loses a factor. Conjugate gradients and Anderson's extrapolation gain where the set of open and sliding
+    contacts has settled, and fall back where it changes. ADMM solves for all velocities at once, but its projections
+    know nothing of each other, and a penalty that suits stiff rows is slow for soft ones.
 
-    The prototypes of the solver's two methods must need the sweeps that it needs, and their impulses must have the residual that its own measure
-    says. Sweeps are compared at 1e-3: later, restarts decide, and a different order of contacts has them elsewhere."""
+    The prototypes of the solver's two methods must need the sweeps that it needs, and their impulses must have the
+    residual that its own measure says. Sweeps are compared at 1e-3: later, restarts decide, and a different order of
+    contacts has them elsewhere."""
     most = 600 if bench.quick else 3000
     tolerance = 1e-4 if bench.quick else 1e-5
     curves, claims, rows = {}, Claims(), []
@@ -104,7 +106,8 @@ def ways_to_solve(bench):
 
 
 def _sweeps_until(done, problem, method, start, step, most, look=None):
-    """Sweeps of the solver in C++ from ``start``, in steps, until ``done(solution)``; infinite where it does not come to that. Its own test of convergence is not asked.
+    """Sweeps of the solver in C++ from ``start``, in steps, until ``done(solution)``; infinite where it does not come
+    to that. Its own test of convergence is not asked.
 
     ``look``: sweeps between two looks at the residual; none before the end where it is None.
     """
@@ -152,13 +155,15 @@ def _sweeps_to_carry(problem, weight, method, step, most):
 
 @check("Sweeps from a cold start against the thickness of the packing", subject=SUBJECT, seconds=10, quick=5)
 def sweeps_by_thickness(bench):
-    """A load is known to the floor when news of it has crossed the packing. LMGC90's packing, 31 diameters deep, is cut at 1/8, 1/4 and 1/2 of its
-    height, which leaves packings of the same disks and the same width. Gauss-Seidel spreads news as a diffusion: the sweeps until the ground bears 99 %
-    of what it bears in the end must grow with the square of the thickness. Nesterov's extrapolation makes a wave of it, whose sweeps
-    must grow with the thickness itself. Surfaces, sides and an arch here and there make the exponents uncertain by a few tenths.
+    """A load is known to the floor when news of it has crossed the packing. LMGC90's packing, 31 diameters deep, is cut
+    at 1/8, 1/4 and 1/2 of its height, which leaves packings of the same disks and the same width. Gauss-Seidel spreads
+    news as a diffusion: the sweeps until the ground bears 99 % of what it bears in the end must grow with the square of
+    the thickness. Nesterov's extrapolation makes a wave of it, whose sweeps must grow with the thickness itself.
+    Surfaces, sides and an arch here and there make the exponents uncertain by a few tenths.
 
-    The residual does not say this: as a mean over all contacts of what one alone would change, it falls to 1e-4 in about as many sweeps at every
-    thickness, with less and less of the weight carried by then when it is looser. That is why the weight is asked for beside it.
+    The residual does not say this: as a mean over all contacts of what one alone would change, it falls to 1e-4 in
+    about as many sweeps at every thickness, with less and less of the weight carried by then when it is looser. That is
+    why the weight is asked for beside it.
     """
     dump, problem, _ = lp.step_problem(bench.folder)
     diameter = 2 * dump.r.mean()

@@ -22,13 +22,16 @@ TIME = math.sqrt(MEAN_MASS / PRESSURE)  # s, of the inertial number: 0.44 s, in 
 
 
 class Box:
-    """Disks of one friction between four frictionless walls; the right and the upper one move under the pressure, without gravity.
+    """Disks of one friction between four frictionless walls; the right and the upper one move under the pressure,
+    without gravity.
 
     After construction the sample is at rest under :data:`PRESSURE` on all sides.
     """
 
     def __init__(self, count, seed, friction, aspect, ratio=2.0):
-        """``aspect``: height over width, roughly; ``ratio``: largest over smallest diameter, with the number density 1/d² between."""
+        """``aspect``: height over width, roughly; ``ratio``: largest over smallest diameter, with the number density
+        1/d² between.
+        """
         from yade import O
         from yade.wrapper import NscdMat
 
@@ -63,8 +66,8 @@ class Box:
         self._compress()
 
     def _compress(self):
-        # at a given rate until the disks carry, at most 1 % of a diameter a step; heavy walls under pressure would go on swinging, one in while
-        # the other goes out, which frictionless disks hardly resist
+        # at a given rate until the disks carry, at most 1 % of a diameter a step; heavy walls under pressure would go
+        # on swinging, one in while the other goes out, which frictionless disks hardly resist
         from ...world.stepping import until
 
         walls = self.walls
@@ -96,8 +99,8 @@ class Box:
 def shear(folder, count, seed, inertia, strain, step):
     """Slow biaxial compression of a frictionless packing.
 
-    ``inertia``: inertial number γ̇ √(m/P) with γ̇ = 2 ε̇₁; ``strain``: γ in all; ``step``: time step in units of √(m/P). Returns the stress
-    ratio of every hundredth of the strain, and how the solver did.
+    ``inertia``: inertial number γ̇ √(m/P) with γ̇ = 2 ε̇₁; ``strain``: γ in all; ``step``: time step in units of
+    √(m/P). Returns the stress ratio of every hundredth of the strain, and how the solver did.
     """
     from yade import O
 
@@ -132,7 +135,8 @@ def shear(folder, count, seed, inertia, strain, step):
 def angle_of(stresses, begin):
     """Angle of friction [°] and its standard error, from the part of a run beyond the share ``begin``.
 
-    ``stresses``: rows of equal strain, columns σ on the top, bottom, right and left wall. The error is that of the mean over ten blocks.
+    ``stresses``: rows of equal strain, columns σ on the top, bottom, right and left wall. The error is that of the mean
+    over ten blocks.
     """
     rows = np.array(stresses)[int(begin * len(stresses)) :]
     major, minor = rows[:, :2].mean(axis=1), rows[:, 2:].mean(axis=1)
@@ -143,18 +147,19 @@ def angle_of(stresses, begin):
 
 @check("Frictionless disks still resist shear", subject=SUBJECT, seconds=200, quick=12)
 def frictionless_packing(bench):
-    """Disks without friction cannot resist sliding at a contact, but to pass each other they must climb. A disordered packing
-    of them has a macroscopic angle of friction of 4° to 7° (Taboada and Estrada 2009, section 3.2.1, after Taboada et al. 2006); spheres
-    have 5.8° ± 0.2° (Peyneau and Roux 2008). A solver whose error acts as cohesion or creep would miss this small angle.
+    """Disks without friction cannot resist sliding at a contact, but to pass each other they must climb. A disordered
+    packing of them has a macroscopic angle of friction of 4° to 7° (Taboada and Estrada 2009, section 3.2.1, after
+    Taboada et al. 2006); spheres have 5.8° ± 0.2° (Peyneau and Roux 2008). A solver whose error acts as cohesion or
+    creep would miss this small angle.
 
-    Samples between four frictionless walls are compressed at the rate ε̇₁ along one axis, with constant pressure P across. With the mean
-    pressures σ₁ and σ₃ on the walls,
+    Samples between four frictionless walls are compressed at the rate ε̇₁ along one axis, with constant pressure P
+    across. With the mean pressures σ₁ and σ₃ on the walls,
 
         sin φ = (σ₁ − σ₃) / (σ₁ + σ₃) .
 
-    The inertial number is I = 2 ε̇₁ √(m/P), m the mean mass of a disk. The first fifth of the strain is left out, since a packing made by
-    isotropic pressure starts from φ = 0. φ grows with I, as a power of about 0.4 (Peyneau and Roux), so the slowest rate is the one to
-    be held against the range.
+    The inertial number is I = 2 ε̇₁ √(m/P), m the mean mass of a disk. The first fifth of the strain is left out, since
+    a packing made by isotropic pressure starts from φ = 0. φ grows with I, as a power of about 0.4 (Peyneau and Roux),
+    so the slowest rate is the one to be held against the range.
     """
     count, strain, seeds = (300, 0.2, (1, 2, 3)) if bench.quick else (1000, 0.4, (1, 2, 3))
     inertias = (5e-4,) if bench.quick else (3e-3, 1e-3, 3e-4)
@@ -240,9 +245,11 @@ def frictionless_packing(bench):
 
 
 def network(folder, count, seed, friction, strain, ratio):
-    """Normal forces of the disk-disk contacts of a packing, one and a half of the largest diameters and more from the walls.
+    """Normal forces of the disk-disk contacts of a packing, one and a half of the largest diameters and more from the
+    walls.
 
-    ``strain`` 0: at rest under isotropic pressure. Else γ of a slow biaxial compression (I = 1e-3), whose last half is looked at in five places.
+    ``strain`` 0: at rest under isotropic pressure. Else γ of a slow biaxial compression (I = 1e-3), whose last half is
+    looked at in five places.
     """
     from yade import O
 
@@ -264,7 +271,8 @@ def network(folder, count, seed, friction, strain, ratio):
 def _look(box):
     """Forces and state of a packing after a few steps that are solved far better than the others.
 
-    A step in which disks rearrange can be one that 20,000 sweeps do not solve; the look then waits for the next that they do, at most thirty steps.
+    A step in which disks rearrange can be one that 20,000 sweeps do not solve; the look then waits for the next that
+    they do, at most thirty steps.
     """
     from ...world import tables
 
@@ -296,7 +304,9 @@ def _look(box):
 
 
 def below_mean(share, least):
-    """Exponent α of a density ∝ share^−α on (least, 1), by maximum likelihood, and its standard error (from the curvature)."""
+    """Exponent α of a density ∝ share^−α on (least, 1), by maximum likelihood, and its standard error (from the
+    curvature).
+    """
     from scipy.optimize import minimize_scalar
 
     inside = share[(share > least) & (share < 1)]
@@ -319,20 +329,23 @@ def above_mean(share):
 
 @check("The distribution of contact forces", subject=SUBJECT, seconds=200, quick=18)
 def force_network(bench):
-    """Forces in a packing are very uneven. Radjai et al. (1996) found with Contact Dynamics, for the normal force N of all contacts,
+    """Forces in a packing are very uneven. Radjai et al. (1996) found with Contact Dynamics, for the normal force N of
+    all contacts,
 
         P(N) ∝ (N/⟨N⟩)^−α, α ≈ 0.3, below the mean,     P(N) ∝ exp(β(1 − N/⟨N⟩)), β ≈ 1.4, above it,
 
-    and more than 60 % of the contacts below the mean. Experiments gave α = 0.3 and β = 1.8 under a deep packing (Løvoll et al. 1999), and a
-    nearly uniform density below the mean (Mueth et al. 1998), which is α = 0. A continuous density of this form with the mean 1 has
-    β² = (1 − α)(2 − α): α = 0.3 asks for β = 1.09 and has 61 % below the mean, β = 1.4 asks for α = 0 and has 58.5 %. So each published figure is the slope of
-    one part of a measured curve; α depends on how far down one looks, and all depend on the sizes of the disks.
+    and more than 60 % of the contacts below the mean. Experiments gave α = 0.3 and β = 1.8 under a deep packing (Løvoll
+    et al. 1999), and a nearly uniform density below the mean (Mueth et al. 1998), which is α = 0. A continuous density
+    of this form with the mean 1 has β² = (1 − α)(2 − α): α = 0.3 asks for β = 1.09 and has 61 % below the mean, β = 1.4
+    asks for α = 0 and has 58.5 %. So each published figure is the slope of one part of a measured curve; α depends on
+    how far down one looks, and all depend on the sizes of the disks.
 
-    Disks with μ = 0.3 are compressed between frictionless walls without gravity until they rest: one kind of sample with diameters of 1 to 2,
-    one with 1 to 4 as in the paper's slope; a third kind is then sheared slowly and looked at on the way. All forces of a sample have the
-    same mean, so no depth needs to be divided out. Contacts nearer than one and a half of the largest diameters to a wall are left out. α is the maximum of likelihood of
-    a power law on 0.01 < N/⟨N⟩ < 1 (in the table also on 10⁻⁴ to 1), β that of an exponential on N > ⟨N⟩. Errors: of the means over
-    seeds, or from the curvature of the likelihood where that is larger.
+    Disks with μ = 0.3 are compressed between frictionless walls without gravity until they rest: one kind of sample
+    with diameters of 1 to 2, one with 1 to 4 as in the paper's slope; a third kind is then sheared slowly and looked at
+    on the way. All forces of a sample have the same mean, so no depth needs to be divided out. Contacts nearer than one
+    and a half of the largest diameters to a wall are left out. α is the maximum of likelihood of a power law on 0.01 <
+    N/⟨N⟩ < 1 (in the table also on 10⁻⁴ to 1), β that of an exponential on N > ⟨N⟩. Errors: of the means over seeds, or
+    from the curvature of the likelihood where that is larger.
     """
     count = 600 if bench.quick else 1500
     kinds = {"1 to 2, at rest": dict(ratio=2.0, strain=0.0), "1 to 4, at rest": dict(ratio=4.0, strain=0.0)}

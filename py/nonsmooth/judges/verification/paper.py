@@ -1,4 +1,6 @@
-"""The statements of the paper's section 6, on slopes of its section: what forces on walls do from stage to stage of the avalanche."""
+"""The statements of the paper's section 6, on slopes of its section: what forces on walls do from stage to stage of the
+avalanche.
+"""
 
 from __future__ import annotations
 
@@ -22,7 +24,9 @@ QUICK_SEEDS = SEEDS[:2]  # of the same size: slopes of 1,500 disks scatter twice
 
 @dataclasses.dataclass(frozen=True)
 class Statement:
-    """A number of :mod:`..measure.force_stages`: in words, what the paper says of it, the least and the largest mean over seeds, and why these."""
+    """A number of :mod:`..measure.force_stages`: in words, what the paper says of it, the least and the largest mean
+    over seeds, and why these.
+    """
 
     what: str
     paper: str
@@ -105,8 +109,9 @@ def slope(disks, seed):
 
 
 def avalanche(folder, disks, seed):
-    """Runs a :func:`slope` in the (empty) scene until it rests; returns its summary, as ``wedge_m`` how far up from the foot the end of DP is not weakened [m], and as ``friction_WALL_rel``
-    the work of friction on each wall by all that is dissipated."""
+    """Runs a :func:`slope` in the (empty) scene until it rests; returns its summary, as ``wedge_m`` how far up from the
+    foot the end of DP is not weakened [m], and as ``friction_WALL_rel`` the work of friction on each wall by all that
+    is dissipated."""
     from ...studies.slope import experiment, slope as builder, slope_packing
 
     chosen = slope(disks, seed)
@@ -132,13 +137,16 @@ def wedge(chosen, end):
 def paper(bench):
     """Slopes of the paper's section with 3,000 disks, five packings.
 
-    Until failure the slope stands, and forces along DP are in balance. It is steeper than its friction angle, so its friction is fully used: T_DP = μ N'_DP (eq. 20). Water takes
-    N'_DP, and T_DP falls by μ U_DP (eq. 19), which FB takes over (eq. 21). At t1 the foot bears no more, N'_FB stays level, and does not fall from its largest value, until the slope
-    accelerates at t2 [116]. The shear force
-    drops as slip passes D_c, water is released and N'_DP rises [117]; in motion N_DP falls as the mass leaves DP, N'_FB goes with the momentum, T_DP is small [118]. At rest N'_FB is
-    higher than at failure, T_DP small and of the other sense, for the lowest part of DP is below the slip surface and keeps its friction [119].
+    Until failure the slope stands, and forces along DP are in balance. It is steeper than its friction angle, so its
+    friction is fully used: T_DP = μ N'_DP (eq. 20). Water takes N'_DP, and T_DP falls by μ U_DP (eq. 19), which FB
+    takes over (eq. 21). At t1 the foot bears no more, N'_FB stays level, and does not fall from its largest value,
+    until the slope accelerates at t2 [116]. The shear force drops as slip passes D_c, water is released and N'_DP rises
+    [117]; in motion N_DP falls as the mass leaves DP, N'_FB goes with the momentum, T_DP is small [118]. At rest N'_FB
+    is higher than at failure, T_DP small and of the other sense, for the lowest part of DP is below the slip surface
+    and keeps its friction [119].
 
-    Each of these is one number of a run (yade.nonsmooth.measure.force_stages), and means over packings are claimed. In a quick run there are two packings.
+    Each of these is one number of a run (yade.nonsmooth.measure.force_stages), and means over packings are claimed. In
+    a quick run there are two packings.
     """
     seeds = QUICK_SEEDS if bench.quick else SEEDS
     cases = [dict(disks=DISKS, seed=seed) for seed in seeds]
@@ -165,7 +173,9 @@ def paper(bench):
 
 
 def claims_of(stages):
-    """A claim for each of :data:`STATEMENTS`, of its mean over packings; ``stages``: {name: its values, one a packing}."""
+    """A claim for each of :data:`STATEMENTS`, of its mean over packings; ``stages``: {name: its values, one a
+    packing}.
+    """
     claims = Claims(against="the paper")
     for name, said in STATEMENTS.items():
         claims.between(said.what, _mean(stages[name]).mean, said.low, said.high, said.why)

@@ -12,7 +12,9 @@ __all__ = ["Bench", "Check", "check", "registered"]
 
 @dataclass
 class Bench:
-    """What a check works with. ``quick``: smaller samples and fewer points, for minutes instead of an hour; ``folder``: for its files."""
+    """What a check works with. ``quick``: smaller samples and fewer points, for minutes instead of an hour; ``folder``:
+    for its files.
+    """
 
     folder: Path
     quick: bool = False
@@ -39,8 +41,8 @@ _checks: dict[str, Check] = {}
 def check(title, *, subject, seconds=1.0, quick=True):
     """Marks a function ``f(bench) -> Findings`` as a check; its docstring is printed in the report as the derivation.
 
-    ``seconds``: roughly what it takes; ``quick``: seconds in a quick run, True for the same, None to leave it out there.
-    Raises ValueError for a second check of the same name, or one without a docstring.
+    ``seconds``: roughly what it takes; ``quick``: seconds in a quick run, True for the same, None to leave it out
+    there. Raises ValueError for a second check of the same name, or one without a docstring.
     """
 
     def mark(function):

@@ -1,4 +1,6 @@
-"""Runs checks one after the other, keeps what each found in a folder of its own, and picks up what an earlier run has finished."""
+"""Runs checks one after the other, keeps what each found in a folder of its own, and picks up what an earlier run has
+finished.
+"""
 
 from __future__ import annotations
 
@@ -37,7 +39,8 @@ def run_checks(
 ):
     """Runs the checks and yields a :class:`CheckResult` for each, in order; each is on disk before the next begins.
 
-    ``resume``: take over what an earlier run with the same ``quick``, engines and code wrote in ``out`` and finished without an error.
+    ``resume``: take over what an earlier run with the same ``quick``, engines and code wrote in ``out`` and finished
+    without an error.
     """
     for check in checks:
         folder = Path(out) / "checks" / check.name

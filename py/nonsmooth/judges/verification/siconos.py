@@ -1,4 +1,6 @@
-"""The same problems solved by Siconos, which shares no line with our solver: cones, local solutions and stopping test are its own."""
+"""The same problems solved by Siconos, which shares no line with our solver: cones, local solutions and stopping test
+are its own.
+"""
 
 from __future__ import annotations
 
@@ -25,13 +27,14 @@ SAME_WHY = "the tolerance itself, and rounding"
 # ---- small random problems -----------------------------------------------------------------------
 @check("Random clusters with friction, solved by Siconos too", subject=SUBJECT, seconds=3)
 def siconos_random_friction(bench):
-    """Three to 22 disks of random radii, masses and velocities fly at each other and at a floor; up to some 50 contacts, some of them open. Every
-    fifth disk cannot turn, every eighth cannot move sideways. Siconos's ``fc2d_driver`` (nonlinear Gauss-Seidel, each contact solved exactly)
-    solves the same step in its own form: cone :math:`|T|\\le\\mu N`, normal velocity changed to :math:`U^n+\\mu|U^t|` (De Saxcé).
+    """Three to 22 disks of random radii, masses and velocities fly at each other and at a floor; up to some 50
+    contacts, some of them open. Every fifth disk cannot turn, every eighth cannot move sideways. Siconos's
+    ``fc2d_driver`` (nonlinear Gauss-Seidel, each contact solved exactly) solves the same step in its own form: cone
+    :math:`|T|\\le\\mu N`, normal velocity changed to :math:`U^n+\\mu|U^t|` (De Saxcé).
 
-    Both forms have the same solutions, so velocities must agree to what both leave over. Forces of closed loops of contacts may differ: there
-    they are not unique. Each solver is given the same number as tolerance on its own test: ours is the natural map relative to the rms impulse,
-    Siconos's the same relative to :math:`|q|`.
+    Both forms have the same solutions, so velocities must agree to what both leave over. Forces of closed loops of
+    contacts may differ: there they are not unique. Each solver is given the same number as tolerance on its own test:
+    ours is the natural map relative to the rms impulse, Siconos's the same relative to :math:`|q|`.
     """
     return _random_problems(bench, {})
 
@@ -40,10 +43,11 @@ def siconos_random_friction(bench):
     "Random clusters with friction, rolling resistance and cohesion, solved by Siconos too", subject=SUBJECT, seconds=3
 )
 def siconos_random_rolling_cohesion(bench):
-    """The same as without rolling and cohesion, but two thirds of the contacts resist rolling with an arm up to :math:`0.2\\,\\ell` and two thirds bear
-    tension. Siconos's ``rolling_fc2d_driver`` knows the cone :math:`|T|\\le\\mu\\hat N,\\ |\\Gamma|\\le\\mu_r\\ell\\hat N` with
-    :math:`U^n+\\mu|U^t|+\\mu_r\\ell|w|`. Cohesion is put in by the shift :math:`\\hat N = N+F_a`, :math:`\\hat q = q - W(F_a,0,0)`: eqs 1 to 6 of the
-    paper say nothing else.
+    """The same as without rolling and cohesion, but two thirds of the contacts resist rolling with an arm up to
+    :math:`0.2\\,\\ell` and two thirds bear tension. Siconos's ``rolling_fc2d_driver`` knows the cone
+    :math:`|T|\\le\\mu\\hat N,\\ |\\Gamma|\\le\\mu_r\\ell\\hat N` with :math:`U^n+\\mu|U^t|+\\mu_r\\ell|w|`. Cohesion is
+    put in by the shift :math:`\\hat N = N+F_a`, :math:`\\hat q = q - W(F_a,0,0)`: eqs 1 to 6 of the paper say nothing
+    else.
     """
     return _random_problems(bench, {"rolling": True, "cohesion": True})
 
@@ -102,10 +106,11 @@ def _random_problems(bench, kind, tolerance=1e-10, sweeps=200000, count=20):
 # ---- steps of packings ---------------------------------------------------------------------------
 @check("A packing of 5,000 disks at rest, solved by Siconos too", subject=SUBJECT, seconds=60, quick=10)
 def siconos_packing(bench):
-    """The packing that LMGC90 made (``tests/data``), at rest, with friction, from a cold start: all weight has yet to find its way to the floor. The
-    packing is hyperstatic, so forces are not unique. Velocities are, but for disks that friction lets wedge or fall: both are solutions of
-    Coulomb's law. A disk counts as one of those if the two solutions move it apart by more than a tenth of what a free disk gains in the step,
-    although both leave far less over. A quick run takes the contacts of the lowest sixteenth of its height.
+    """The packing that LMGC90 made (``tests/data``), at rest, with friction, from a cold start: all weight has yet to
+    find its way to the floor. The packing is hyperstatic, so forces are not unique. Velocities are, but for disks that
+    friction lets wedge or fall: both are solutions of Coulomb's law. A disk counts as one of those if the two solutions
+    move it apart by more than a tenth of what a free disk gains in the step, although both leave far less over. A quick
+    run takes the contacts of the lowest sixteenth of its height.
     """
     x, y, r = np.loadtxt(_data("lmgc90_5000_disks.txt.gz"), usecols=(0, 1, 2)).T
     width = 409.59035
@@ -119,16 +124,17 @@ def siconos_packing(bench):
 
 @check("A slope at failure, solved by Siconos too", subject=SUBJECT, seconds=40, quick=None)
 def siconos_slope_at_failure(bench):
-    """A step of the paper's slope with 1,200 disks, just before the backstop reaches its strength (t₁; ``tests/data/slope_t1.h5``): bonds, rolling
-    resistance, water; from a cold start. Siconos's rolling solver, cohesion shifted.
+    """A step of the paper's slope with 1,200 disks, just before the backstop reaches its strength (t₁;
+    ``tests/data/slope_t1.h5``): bonds, rolling resistance, water; from a cold start. Siconos's rolling solver, cohesion
+    shifted.
     """
     return _one_step(bench, contact.load(_data("slope_t1.h5")), tolerance=1e-6, sweeps=60000)
 
 
 @check("The moving avalanche, solved by Siconos too", subject=SUBJECT, seconds=30, quick=None)
 def siconos_avalanche(bench):
-    """A step of the same slope at its largest kinetic energy (t₄; ``tests/data/avalanche_t4.h5``): impacts, sliding, rolling and residual
-    cohesion, from a cold start.
+    """A step of the same slope at its largest kinetic energy (t₄; ``tests/data/avalanche_t4.h5``): impacts, sliding,
+    rolling and residual cohesion, from a cold start.
     """
     return _one_step(bench, contact.load(_data("avalanche_t4.h5")), tolerance=1e-6, sweeps=60000)
 

@@ -49,8 +49,9 @@ def program() -> Path:
 def solve_with_siconos(problem, folder, tolerance, max_iterations, check_every=1, rolling=True) -> Answer:
     """Siconos's nonlinear Gauss-Seidel from a cold start, on one thread; files go into ``folder``.
 
-    ``tolerance``: on the error of Siconos, the natural map relative to q in scaled units (tests/oracle/siconos_solve.cpp); without
-    ``rolling`` torques are left out and the two-dimensional solver for friction alone is asked.
+    ``tolerance``: on the error of Siconos, the natural map relative to q in scaled units
+    (tests/oracle/siconos_solve.cpp); without ``rolling`` torques are left out and the two-dimensional solver for
+    friction alone is asked.
     """
     source, target = Path(folder) / "problem.h5", Path(folder) / "siconos.h5"
     contact.save(source, problem)
@@ -81,7 +82,8 @@ def solve_with_siconos(problem, folder, tolerance, max_iterations, check_every=1
 def error_by_siconos(problem, folder, impulse) -> tuple[float, float]:
     """What Siconos's own stopping test says of impulses of shape (c, 3), whoever found them: (error, q/p).
 
-    q/p: size of what Siconos's error is relative to, over that of the impulses in the same scaled units, to which ours is.
+    q/p: size of what Siconos's error is relative to, over that of the impulses in the same scaled units, to which ours
+    is.
     """
     source = Path(folder) / "measured.h5"
     contact.save(source, replace(problem, impulse=impulse))

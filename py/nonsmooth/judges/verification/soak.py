@@ -1,7 +1,9 @@
-"""A soak: disks in a drum that turns, for very many steps. What creeps shows: overlaps, energy and memory must not grow.
+"""A soak: disks in a drum that turns, for very many steps. What creeps shows: overlaps, energy and memory must not
+grow.
 
-The drum is a closed polygon of segments that stays where it is, and gravity turns instead. That is the drum in its own frame but for centrifugal, Coriolis and
-Euler forces, which are left out: they are ω²R/g of gravity (0.7 % by default), or vanish. Walls that move would be one more source of error to tell from the others.
+The drum is a closed polygon of segments that stays where it is, and gravity turns instead. That is the drum in its own
+frame but for centrifugal, Coriolis and Euler forces, which are left out: they are ω²R/g of gravity (0.7 % by default),
+or vanish. Walls that move would be one more source of error to tell from the others.
 """
 
 from __future__ import annotations
@@ -37,11 +39,13 @@ WAYS = {
 
 
 def run(disks, steps, seed=1, progress=lambda share, doing: None, way="advance"):
-    """Turns a drum with ``disks`` disks (1 m wide, ± 20 %) for ``steps`` steps of 5 ms, one turn in 100 s; returns what JSON can hold.
+    """Turns a drum with ``disks`` disks (1 m wide, ± 20 %) for ``steps`` steps of 5 ms, one turn in 100 s; returns what
+    JSON can hold.
 
-    ``progress``: called with the share done and what is being done; ``way``: of WAYS. The scene is reset before. Rows hold, of every tenth step,
-    the largest and the mean overlap [ℓ] and the mean kinetic energy [J]; what the energy balance misses as a share of all that was dissipated so far; the
-    memory in use [MB]; sweeps; steps above the tolerance; and a checksum of bodies and contacts to the last bit, which is the same in both ways.
+    ``progress``: called with the share done and what is being done; ``way``: of WAYS. The scene is reset before. Rows
+    hold, of every tenth step, the largest and the mean overlap [ℓ] and the mean kinetic energy [J]; what the energy
+    balance misses as a share of all that was dissipated so far; the memory in use [MB]; sweeps; steps above the
+    tolerance; and a checksum of bodies and contacts to the last bit, which is the same in both ways.
     """
     engine, newton, radius = _fill(disks, seed)
     began, rows = time.monotonic(), []
@@ -92,7 +96,8 @@ def run(disks, steps, seed=1, progress=lambda share, doing: None, way="advance")
 
 
 def judge(rows):
-    """Whether nothing grew: {"grew": [what did, in words], "ratios": {name: last third over the first}}, with the first tenth, in which the drum fills, left out.
+    """Whether nothing grew: {"grew": [what did, in words], "ratios": {name: last third over the first}}, with the first
+    tenth, in which the drum fills, left out.
 
     {"grew": None} where the drum has turned too little to tell.
     """
@@ -101,8 +106,8 @@ def judge(rows):
     settled = rows[len(rows) // 10 :]
     third = max(1, len(settled) // 3)
     ratios, grew = {}, []
-    # A drum's flow is uneven: means of a third of it differ by some per cent, a largest value by more, and more than that may be chance where both are small.
-    # Memory is measured to a megabyte or so.
+    # A drum's flow is uneven: means of a third of it differ by some per cent, a largest value by more, and more than
+    # that may be chance where both are small. Memory is measured to a megabyte or so.
     for name, most, small in (
         ("overlap_worst_rel", 2.0, 1e-3),
         ("overlap_mean_rel", 1.25, 1e-5),

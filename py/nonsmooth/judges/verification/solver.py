@@ -26,26 +26,29 @@ WAYS = (
 
 @check("Sweeps to a residual, from a cold start and from known forces", subject=SUBJECT, seconds=50, quick=20)
 def sweeps_to_a_residual(bench):
-    """News crosses about one contact a sweep, so plain Gauss-Seidel needs as many sweeps as a diffusion across the packing, some 30 disks
-    deep: thousands. Nesterov's extrapolation makes a wave of it. On 16,901 disks in a box of the same thickness, an earlier computation had
-    found 100 accelerated sweeps to be worth 0.9945 of the weight at a residual of 4.0e-5, where plain sweeps were at 0.29 and 4.4e-3; 1,000
-    plain ones came to 0.84 and 2.3e-4. The number follows the thickness in grains, which is nearly the same here (some 30), so this packing
-    must behave alike: about 100 accelerated sweeps to 0.99 of the weight. That computation had rolling friction and other disks, so alike
-    means to a factor of 1.5.
+    """News crosses about one contact a sweep, so plain Gauss-Seidel needs as many sweeps as a diffusion across the
+    packing, some 30 disks deep: thousands. Nesterov's extrapolation makes a wave of it. On 16,901 disks in a box of the
+    same thickness, an earlier computation had found 100 accelerated sweeps to be worth 0.9945 of the weight at a
+    residual of 4.0e-5, where plain sweeps were at 0.29 and 4.4e-3; 1,000 plain ones came to 0.84 and 2.3e-4. The number
+    follows the thickness in grains, which is nearly the same here (some 30), so this packing must behave alike: about
+    100 accelerated sweeps to 0.99 of the weight. That computation had rolling friction and other disks, so alike means
+    to a factor of 1.5.
 
-    The residual is the independent one, computed from the impulses that are returned. It alone misleads: a packing that falls as a whole
-    has small relative velocities. So each row also says what share of the weight floor and sides bear in the step; the rest falls.
+    The residual is the independent one, computed from the impulses that are returned. It alone misleads: a packing that
+    falls as a whole has small relative velocities. So each row also says what share of the weight floor and sides bear
+    in the step; the rest falls.
 
-    Warm is from LMGC90's forces. Its solution has a residual of 2e-6 with our levers, so nothing is left to do above that. Forces of a step
-    before are looked at in :code:`sweeps-in-a-running-scene`.
+    Warm is from LMGC90's forces. Its solution has a residual of 2e-6 with our levers, so nothing is left to do above
+    that. Forces of a step before are looked at in :code:`sweeps-in-a-running-scene`.
 
-    The number of sweeps to 1e-4 from a cold start follows the order in which contacts are swept, which follows the order in which a problem
-    lists them: a single one says little. So it is the median over random orders that is claimed, and the file's own order stands in the
-    table beside it.
+    The number of sweeps to 1e-4 from a cold start follows the order in which contacts are swept, which follows the
+    order in which a problem lists them: a single one says little. So it is the median over random orders that is
+    claimed, and the file's own order stands in the table beside it.
 
-    Below 1e-5 the restarts of the extrapolation decide. It begins anew where the residual is larger than two looks before; looked at every
-    10 sweeps, which is the default, noise makes it do so hundreds of times on the way to 1e-6 from a cold start. With a look every 50 it
-    hardly does. Plain Gauss-Seidel reached 1e-6 after 76,500 sweeps when this was tried."""
+    Below 1e-5 the restarts of the extrapolation decide. It begins anew where the residual is larger than two looks
+    before; looked at every 10 sweeps, which is the default, noise makes it do so hundreds of times on the way to 1e-6
+    from a cold start. With a look every 50 it hardly does. Plain Gauss-Seidel reached 1e-6 after 76,500 sweeps when
+    this was tried."""
     cap = 5000 if bench.quick else 20000
     dump, problem, known = lp.step_problem(bench.folder)
     rows, found = [], {}
@@ -171,14 +174,15 @@ def _convergence(curves):
 
 @check("Sweeps in a running scene, from the forces of the step before", subject=SUBJECT, seconds=20, quick=8)
 def sweeps_in_a_running_scene(bench):
-    """What a simulation needs is the warm start from the step before. The scene begins with LMGC90's forces and velocities and makes thirty
-    steps at each tolerance with each method (no overlap is taken back, so that nothing but the packing's own small motion is to be
-    followed). Rattlers knock and roll, some contacts slide, so there is always something to do; what is at rest costs nothing. No other
-    code's figure is at hand for this; the claims say what a warm start is worth against the cold one: ten times fewer sweeps, and no loss
-    of weight.
+    """What a simulation needs is the warm start from the step before. The scene begins with LMGC90's forces and
+    velocities and makes thirty steps at each tolerance with each method (no overlap is taken back, so that nothing but
+    the packing's own small motion is to be followed). Rattlers knock and roll, some contacts slide, so there is always
+    something to do; what is at rest costs nothing. No other code's figure is at hand for this; the claims say what a
+    warm start is worth against the cold one: ten times fewer sweeps, and no loss of weight.
 
-    At loose tolerances a step may need no sweep at all: the errors of the steps add up until the residual sees them. That is the creep
-    which the check of a hundred steps measures. A quick run makes ten steps, of the tolerances and methods that claims are made of.
+    At loose tolerances a step may need no sweep at all: the errors of the steps add up until the residual sees them.
+    That is the creep which the check of a hundred steps measures. A quick run makes ten steps, of the tolerances and
+    methods that claims are made of.
     """
     dump = lp.load()
     steps, rows, mean = 10 if bench.quick else 30, [], {}
@@ -231,13 +235,15 @@ def sweeps_in_a_running_scene(bench):
 @check("Stopping tests by name: where they stop, and what they leave", subject=SUBJECT, seconds=20, quick=6)
 def stopping_tests_by_name(bench):
     """Quad, Maxm and QM/16 look at the change of relative velocity that one more visit of each contact would make
-    (``pkg/contact/stopping.hpp``). Each must stop the solver at the first look, one in ten sweeps, at which its own figures are below the
-    tolerance: at the stop they are, ten sweeps before they were not. All three are measured again from the impulses returned.
+    (``pkg/contact/stopping.hpp``). Each must stop the solver at the first look, one in ten sweeps, at which its own
+    figures are below the tolerance: at the stop they are, ten sweeps before they were not. All three are measured again
+    from the impulses returned.
 
-    Since Maxm asks more of each contact than QM/16, and that more than Quad, they stop in this order. None of them is the natural map: what
-    residual each leaves at 1e-4 is the figure to know when a computation by LMGC90 is to be repeated. An rms changes little from Quad to
-    the natural map, which are relatives: they weigh the same misses as velocities or as impulses, so a factor of 5 either way is expected.
-    In large packings Maxm is some 16 to 30 times Quad, so stopping at Maxm < 1e-4 leaves a residual about so much smaller.
+    Since Maxm asks more of each contact than QM/16, and that more than Quad, they stop in this order. None of them is
+    the natural map: what residual each leaves at 1e-4 is the figure to know when a computation by LMGC90 is to be
+    repeated. An rms changes little from Quad to the natural map, which are relatives: they weigh the same misses as
+    velocities or as impulses, so a factor of 5 either way is expected. In large packings Maxm is some 16 to 30 times
+    Quad, so stopping at Maxm < 1e-4 leaves a residual about so much smaller.
     """
     tolerance, cap = 1e-4, 20000
     dump, problem, _ = lp.step_problem(bench.folder)

@@ -1,11 +1,14 @@
-"""Ways to solve a contact problem, in NumPy, to be compared by their work: prototypes, and an oracle for the solver in C++.
+"""Ways to solve a contact problem, in NumPy, to be compared by their work: prototypes, and an oracle for the solver in
+C++.
 
-Each method is a generator: ``method(sweeps, p, v)`` begins with impulses ``p`` (c, 3) and the velocities ``v`` (b, 3) that belong to them, and yields
-``(work, p, v)`` after every iteration. Work is counted in sweeps, that is in visits of every contact: about 100 floating-point operations each.
+Each method is a generator: ``method(sweeps, p, v)`` begins with impulses ``p`` (c, 3) and the velocities ``v`` (b, 3)
+that belong to them, and yields ``(work, p, v)`` after every iteration. Work is counted in sweeps, that is in visits of
+every contact: about 100 floating-point operations each.
 
-Sources: projected Gauss-Seidel and over-relaxation, Jean (1999); extrapolation with restarts, Nesterov (1983), O'Donoghue and Candès (2015); a gradient of
-all contacts at once with Nesterov's extrapolation, Mazhar et al. (2015); conjugate gradients on Gauss-Seidel, Silcowitz, Niebe and Erleben (2010);
-Anderson's extrapolation, Walker and Ni (2011); alternating directions (ADMM), Boyd et al. (2011).
+Sources: projected Gauss-Seidel and over-relaxation, Jean (1999); extrapolation with restarts, Nesterov (1983),
+O'Donoghue and Candès (2015); a gradient of all contacts at once with Nesterov's extrapolation, Mazhar et al. (2015);
+conjugate gradients on Gauss-Seidel, Silcowitz, Niebe and Erleben (2010); Anderson's extrapolation, Walker and Ni
+(2011); alternating directions (ADMM), Boyd et al. (2011).
 """
 
 from __future__ import annotations
@@ -22,9 +25,11 @@ PATIENCE = 40  # sweeps between those that a restart compares, at most
 
 
 class Sweeps:
-    """A :class:`~nonsmooth.contact.ContactProblem` laid out for sweeps over colours: contacts of one colour share no body that moves.
+    """A :class:`~nonsmooth.contact.ContactProblem` laid out for sweeps over colours: contacts of one colour share no
+    body that moves.
 
-    ``rows``: H of the contacts' rows n, t, r on bodies i and j, shape (2, 3, c, 3); ``inverse``: 1/W_kk of the rows, (c, 3).
+    ``rows``: H of the contacts' rows n, t, r on bodies i and j, shape (2, 3, c, 3); ``inverse``: 1/W_kk of the rows,
+    (c, 3).
     """
 
     def __init__(self, problem):
@@ -75,7 +80,9 @@ class Sweeps:
         )
 
     def project(self, p, pressing=None):
-        """Impulses moved onto their graphs' admissible sets, normal first. Thresholds are those of the normal impulses ``pressing`` (c,) or of the new ones."""
+        """Impulses moved onto their graphs' admissible sets, normal first. Thresholds are those of the normal impulses
+        ``pressing`` (c,) or of the new ones.
+        """
         q = self.problem
         n = np.maximum(p[:, 0], -q.adhesion)
         limits = np.maximum(
@@ -86,7 +93,9 @@ class Sweeps:
         return np.column_stack([n, np.clip(p[:, 1:], -limits, limits)])
 
     def residual(self, p, v):
-        """Natural map, rms over the rms impulse, as contact.residual has it. The thresholds are those of the present normal impulse."""
+        """Natural map, rms over the rms impulse, as contact.residual has it. The thresholds are those of the present
+        normal impulse.
+        """
         image = self.project(p - self.inverse * self.relative(v), pressing=p[:, 0])
         return float(np.linalg.norm((p - image) * self.units) / max(np.linalg.norm(p * self.units), 1e-300))
 
@@ -131,8 +140,8 @@ def over_relaxed(s, p, v):
 
 
 class _Restarts:
-    """The solver's own rule (``pkg/contact/solver.cpp``): restart where the residual is larger than two comparisons ago, or twice the least since the last
-    restart; each restart moves the looks that are compared apart."""
+    """The solver's own rule (``pkg/contact/solver.cpp``): restart where the residual is larger than two comparisons
+    ago, or twice the least since the last restart; each restart moves the looks that are compared apart."""
 
     def __init__(self, residual):
         self.patience = 1
@@ -259,7 +268,9 @@ def anderson(s, p, v, depth=5):
 
 
 def alternating(s, p, v, weight=20.0):
-    """ADMM: velocities from a linear system that is factorised once, impulses by projection; ``weight``: penalty in units of 1/W_kk."""
+    """ADMM: velocities from a linear system that is factorised once, impulses by projection; ``weight``: penalty in
+    units of 1/W_kk.
+    """
     q, c = s.problem, len(p)
     free = np.flatnonzero(q.inverse_mass.ravel() > 0)
     at = np.full(q.inverse_mass.size, -1)
@@ -315,7 +326,8 @@ METHODS = {
 def run(problem, method, start, tolerance, most):
     """Runs a method until its residual is below ``tolerance`` or it has done the work of ``most`` sweeps.
 
-    ``start``: impulses (c, 3). Returns (curve, impulses): an array (n, 2) of work and residual, looked at every LOOK sweeps of work, and what was found last.
+    ``start``: impulses (c, 3). Returns (curve, impulses): an array (n, 2) of work and residual, looked at every LOOK
+    sweeps of work, and what was found last.
     """
     sweeps = Sweeps(problem)
     p = sweeps.project(np.array(start, float))

@@ -16,12 +16,15 @@ from .registry import check
 from .small_scenes import DENSITY, G, begin, disk, engine, material, set_gravity, wall
 
 STRENGTH = 1e9  # Pa: no bond here bears a hundredth of it
-SLACK = 1e-4  # ContactDynamicsEngine.correctionSlack [ℓ]; two angles half a diameter from a contact may differ by twice that
+# ContactDynamicsEngine.correctionSlack [ℓ]; two angles half a diameter from a contact may differ by twice that
+SLACK = 1e-4
 MASS = DENSITY * math.pi * 0.25  # of a disk of 1 m [kg/m]
 
 
 def boulder(rings):
-    """Places [m] of disks of 1 m in a hexagon around the origin: 7, 19, 37, …, 397 disks for 1, 2, 3, …, 11 rings; a pair for none."""
+    """Places [m] of disks of 1 m in a hexagon around the origin: 7, 19, 37, …, 397 disks for 1, 2, 3, …, 11 rings; a
+    pair for none.
+    """
     if rings == 0:
         return np.array([(-0.5, 0.0), (0.5, 0.0)])
     side = range(-rings, rings + 1)
@@ -29,7 +32,9 @@ def boulder(rings):
 
 
 class Boulder:
-    """Disks that are bonded where they touch, turning with ``omega`` [rad/s] about ``at``, which moves with ``drift``."""
+    """Disks that are bonded where they touch, turning with ``omega`` [rad/s] about ``at``, which moves with
+    ``drift``.
+    """
 
     def __init__(self, rings, omega, at=(0, 0), drift=(0, 0), stuff=None):
         self.places, self.omega = boulder(rings), omega
@@ -49,7 +54,9 @@ class Boulder:
         engine().forgetEnergies()
 
     def look(self):
-        """Now: angles of the disks and of the boulder [rad], largest relative error of a distance, angular momentum about the origin and energy."""
+        """Now: angles of the disks and of the boulder [rad], largest relative error of a distance, angular momentum
+        about the origin and energy.
+        """
         table = tables.bodies(engine())
         row = {int(k): n for n, k in enumerate(table["id"])}
         at = [row[d.id] for d in self.disks]
@@ -71,7 +78,9 @@ class Boulder:
 
 
 def turn_freely(rings, omega, dt, turns, looks=20):
-    """Rows (turns, difference of spin and orbit [rad], stretch, error of angular momentum and of energy, relative) and what the balance lists."""
+    """Rows (turns, difference of spin and orbit [rad], stretch, error of angular momentum and of energy, relative) and
+    what the balance lists.
+    """
     O.reset()
     it = Boulder(rings, omega)
     begin(dt=dt, tolerance=1e-8)
@@ -92,12 +101,14 @@ def turn_freely(rings, omega, dt, turns, looks=20):
 
 @check("Bonded bodies that turn freely", subject="Bonds", seconds=90, quick=12)
 def tumbling(bench):
-    """Two bonded disks, and boulders of 7, 37 and 397, turn freely about their centre of mass, without gravity. Nothing acts from outside, and no bond
-    bears as much as it can: so they keep their shape, each disk turns with the whole, and angular momentum and energy stay. A bond that holds does no work: nothing is lost in
-    debonding, sliding or rolling.
+    """Two bonded disks, and boulders of 7, 37 and 397, turn freely about their centre of mass, without gravity. Nothing
+    acts from outside, and no bond bears as much as it can: so they keep their shape, each disk turns with the whole,
+    and angular momentum and energy stay. A bond that holds does no work: nothing is lost in debonding, sliding or
+    rolling.
 
-    Each body's own step, x + h v and φ + h ω, would have the spins ahead of the orbit by ωh − arctan ωh in each step. Bodies that bonds hold together are turned as one
-    instead (pkg/contact/plane/rigid_clusters.hpp). Rates from 0.1 to 100 rad/s, steps from 0.1 to 10 ms, up to 0.1 rad a step; the pair and 37 disks for a thousand turns (fifty in a
+    Each body's own step, x + h v and φ + h ω, would have the spins ahead of the orbit by ωh − arctan ωh in each step.
+    Bodies that bonds hold together are turned as one instead (pkg/contact/plane/rigid_clusters.hpp). Rates from 0.1 to
+    100 rad/s, steps from 0.1 to 10 ms, up to 0.1 rad a step; the pair and 37 disks for a thousand turns (fifty in a
     quick run).
     """
     many = 50 if bench.quick else 1000
@@ -149,7 +160,9 @@ def tumbling(bench):
 
 
 def let_down(rings, dt, seconds, tolerance):
-    """A boulder let go above a slope of 40° with a step in it, a valley and a counter slope; returns it and outlines (time, x, y) of its places."""
+    """A boulder let go above a slope of 40° with a step in it, a valley and a counter slope; returns it and outlines
+    (time, x, y) of its places.
+    """
     O.reset()
     ground = material(0.5, 0.05, wall=True)
     wall([(-60, 50.35), (-30, 25.17), (-28, 20), (0, -3.5), (40, -3.5), (60, 16.5)], ground, piece=5)
@@ -167,8 +180,10 @@ def let_down(rings, dt, seconds, tolerance):
 
 @check("A bonded boulder tumbles down a slope in one piece", subject="Bonds", seconds=40, quick=6)
 def boulder_on_a_slope(bench):
-    """A boulder of bonded disks falls onto a slope of 40°, jumps and rolls over a step in it to the valley. Impacts are inelastic and no bond bears as much as it can, so the boulder must
-    arrive in one piece, of the shape that it had, every disk turned as the whole. What the solver's tolerance lets bonds slip in an impact is taken back in the steps after it.
+    """A boulder of bonded disks falls onto a slope of 40°, jumps and rolls over a step in it to the valley. Impacts are
+    inelastic and no bond bears as much as it can, so the boulder must arrive in one piece, of the shape that it had,
+    every disk turned as the whole. What the solver's tolerance lets bonds slip in an impact is taken back in the steps
+    after it.
     """
     claims, figure = Claims(), Figure(figsize=(8, 4), layout="constrained")
     axes = figure.subplots()

@@ -33,7 +33,9 @@ def _borne(walls):
 
 
 def _column(light, ratio, steps):
-    """A disk of that many times the mass on so many light ones: what the floor bears in each step, as a share of the weight."""
+    """A disk of that many times the mass on so many light ones: what the floor bears in each step, as a share of the
+    weight.
+    """
     O.reset()
     floor = wall([(-5, 0), (5, 0)], _stuff())
     disks = [
@@ -69,9 +71,10 @@ def _boulder(sizes, rows, steps):
 
 @check("A heavy disk on light ones", subject="Statics", seconds=5)
 def heavy_on_light(bench):
-    """A disk of R times the mass of the n disks below it, at the tolerance and sweeps that everybody has. Whatever R is, the floor bears m g (n + R) in
-    every step from the first on, since nothing moves. The residual of impulses alone does not see the light disks: it called solved, at R = 1e4, what bore 1.35 times the weight, and
-    at 1e6 the light disk was gone.
+    """A disk of R times the mass of the n disks below it, at the tolerance and sweeps that everybody has. Whatever R
+    is, the floor bears m g (n + R) in every step from the first on, since nothing moves. The residual of impulses alone
+    does not see the light disks: it called solved, at R = 1e4, what bore 1.35 times the weight, and at 1e6 the light
+    disk was gone.
     """
     claims, figure = Claims(), Figure(figsize=(6.4, 3.4))
     axes = figure.add_subplot()
@@ -94,7 +97,9 @@ def heavy_on_light(bench):
 
 @check("A boulder on pebbles", subject="Statics", seconds=20)
 def boulder_on_pebbles(bench):
-    """A boulder of 1 m on rows of pebbles between two walls. At rest floor and walls bear the weight of all in every step. Masses are as the square of the sizes: 2,500 and 40,000."""
+    """A boulder of 1 m on rows of pebbles between two walls. At rest floor and walls bear the weight of all in every
+    step. Masses are as the square of the sizes: 2,500 and 40,000.
+    """
     claims, figure = Claims(), Figure(figsize=(6.4, 3.4))
     axes = figure.add_subplot()
     for sizes, rows in ((50, 2), (200, 1)):

@@ -91,7 +91,9 @@ def build(document, source: str) -> Section:
 
 
 def _take_old_names(document) -> None:
-    """Reads `water.gradient`, a force per volume where `pressure_gradient` is the gradient itself, with a warning that says what to write."""
+    """Reads `water.gradient`, a force per volume where `pressure_gradient` is the gradient itself, with a warning that
+    says what to write.
+    """
     water = document.data.get("water", {})
     if "gradient" not in water:
         return
@@ -128,7 +130,8 @@ def _floats(mapping) -> dict:
 
 
 def material_from(name: str, raw: dict, document, keys=()) -> Material:
-    """A Material from its data, which meet the schema; one that is asked for by cohesion and angle of friction has contact parameters of the table (:mod:`.rocks`).
+    """A Material from its data, which meet the schema; one that is asked for by cohesion and angle of friction has
+    contact parameters of the table (:mod:`.rocks`).
 
     ``keys``: of the data in the ``document``, whose SectionError says what cannot be had.
     """

@@ -95,7 +95,9 @@ def check_roles(section: Section, document) -> None:
 
 
 def check_release(section: Section, document) -> None:
-    """Raise SectionError for a section with water whose release goes by the critical slip, of which there are several."""
+    """Raise SectionError for a section with water whose release goes by the critical slip, of which there are
+    several.
+    """
     if section.release_distance is not None:
         return
     slips = ", ".join(f"{value:g} m ({name})" for name, value in section.critical_slips.items())
@@ -107,8 +109,9 @@ def check_release(section: Section, document) -> None:
 
 
 def notes(section: Section) -> list[str]:
-    """Sentences on what is allowed, and may not be meant: a release from water by another distance than the critical slip, where the paper has one for both; water that runs up the slope; and
-    what materials that are asked for by cohesion and angle of friction are made of, with what else they depend on."""
+    """Sentences on what is allowed, and may not be meant: a release from water by another distance than the critical
+    slip, where the paper has one for both; water that runs up the slope; and what materials that are asked for by
+    cohesion and angle of friction are made of, with what else they depend on."""
     return [*_release_notes(section), *_water_notes(section), *_rock_notes(section)]
 
 

@@ -1,4 +1,6 @@
-"""A section as the data of a section file, with nothing left out: what a run keeps of what it was asked for. Needs no YADE."""
+"""A section as the data of a section file, with nothing left out: what a run keeps of what it was asked for. Needs no
+YADE.
+"""
 
 from __future__ import annotations
 
@@ -14,7 +16,9 @@ FILE = "section.yaml"  # in the folder of a run
 
 
 def plain(section) -> dict:
-    """The keys and values of a section file that gives this Section; `section.of` takes them too. A similar section (`like`) loses where it came from."""
+    """The keys and values of a section file that gives this Section; `section.of` takes them too. A similar section
+    (`like`) loses where it came from.
+    """
     disks = lambda d: {
         "diameter": [d.d_min, d.d_max],
         "distribution": d.distribution,

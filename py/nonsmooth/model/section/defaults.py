@@ -1,7 +1,9 @@
-"""What a section has where it says nothing: the values of the paper's slope, in proportion to the section's size. Needs no YADE.
+"""What a section has where it says nothing: the values of the paper's slope, in proportion to the section's size. Needs
+no YADE.
 
-With L the root of the layers' area by that of the paper's slope, lengths go as L, times as √(L g₀/g) and speeds as √(L g/g₀) (Froude), with g₀ = 9.81 m/s². The time
-step is that in which a disk of the smallest diameter falls as far, in its diameters, as the paper's smallest does in 0.01 s.
+With L the root of the layers' area by that of the paper's slope, lengths go as L, times as √(L g₀/g) and speeds as √(L
+g/g₀) (Froude), with g₀ = 9.81 m/s². The time step is that in which a disk of the smallest diameter falls as far, in its
+diameters, as the paper's smallest does in 0.01 s.
 """
 
 from __future__ import annotations

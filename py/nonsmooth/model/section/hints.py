@@ -1,4 +1,6 @@
-"""What to do instead of keys that people try in a section and that it does not have. The page "What a section cannot say" shows the same table."""
+"""What to do instead of keys that people try in a section and that it does not have. The page "What a section cannot
+say" shows the same table.
+"""
 
 from __future__ import annotations
 
@@ -157,7 +159,9 @@ HINTS = (
 
 
 def instead_of(key: str, keys) -> str | None:
-    """What to do instead of the unknown ``key`` below the key path ``keys`` of a section, a sentence without its full stop; None where nothing is known of it."""
+    """What to do instead of the unknown ``key`` below the key path ``keys`` of a section, a sentence without its full
+    stop; None where nothing is known of it.
+    """
     word = "_".join(key.lower().replace("-", "_").split())
     places = [".".join(map(str, keys[:n])) for n in (1, 2)]
     for hint in HINTS:

@@ -21,7 +21,9 @@ def shipped() -> list[str]:
 
 
 def block(width: float, height: float, **fields) -> Section:
-    """The shipped section with one layer, a block of its rock with a corner at the origin [m], that is not pressed: what samples are packed from. ``fields``: others of the Section."""
+    """The shipped section with one layer, a block of its rock with a corner at the origin [m], that is not pressed:
+    what samples are packed from. ``fields``: others of the Section.
+    """
     corners = ((0.0, 0.0), (width, 0.0), (width, height), (0.0, height))
     return dataclasses.replace(
         load("jiufengershan"), layers=(Layer("block", "rock", corners),), pressed=False, **fields
@@ -54,7 +56,8 @@ def load(path_or_name) -> Section:
 
 
 def of(data: Mapping | None = None, source: str = "section", **keys) -> Section:
-    """A Section from data of Python: a dictionary with the keys of a section file, or these as keywords. Points may be tuples or arrays.
+    """A Section from data of Python: a dictionary with the keys of a section file, or these as keywords. Points may be
+    tuples or arrays.
 
     Checked as a file is: raises SectionError with key, value and remedy, after `source`.
     """

@@ -1,4 +1,6 @@
-"""The parts of a section: plain data that do not change. SI units (m, s, kg, N, Pa; a slice 1 m thick), x to the right, y up. Needs no YADE."""
+"""The parts of a section: plain data that do not change. SI units (m, s, kg, N, Pa; a slice 1 m thick), x to the right,
+y up. Needs no YADE.
+"""
 
 from __future__ import annotations
 
@@ -44,7 +46,9 @@ class SlipWeakening:
 
 @dataclass(frozen=True)
 class Envelope:
-    """Macroscopic peak strength of a material as biaxial tests measured it: `cohesion` [Pa], `friction_deg` [degrees]."""
+    """Macroscopic peak strength of a material as biaxial tests measured it: `cohesion` [Pa], `friction_deg`
+    [degrees].
+    """
 
     cohesion: float
     friction_deg: float
@@ -78,7 +82,8 @@ class Material:
 
 @dataclass(frozen=True)
 class Wall:
-    """A polyline with a material; `vertices`: tuple of (x, y) [m], the mass on their left. Joints with other walls are bit-identical.
+    """A polyline with a material; `vertices`: tuple of (x, y) [m], the mass on their left. Joints with other walls are
+    bit-identical.
 
     `role`: "slip", "backstop", "ground" or "obstacle", see :mod:`.roles`.
     """
@@ -99,7 +104,8 @@ class Wall:
 class Layer:
     """A polygon to be filled with disks; `vertices`: tuple of (x, y) [m], not closed.
 
-    `role`: "mass", "bed" (erodible ground, counted apart) or "obstacle"; `disks`: its own, or None for those of the section.
+    `role`: "mass", "bed" (erodible ground, counted apart) or "obstacle"; `disks`: its own, or None for those of the
+    section.
     """
 
     name: str
@@ -130,8 +136,9 @@ class Layer:
 
 @dataclass(frozen=True)
 class Interface:
-    """Contacts of the disks of two layers, whose law is that of a `material`; `between`: names of the layers, the lower one first; `role`: "slip" or None;
-    `flat`: disks are packed on their sides of the border, so that those of the two layers do not interlock."""
+    """Contacts of the disks of two layers, whose law is that of a `material`; `between`: names of the layers, the lower
+    one first; `role`: "slip" or None; `flat`: disks are packed on their sides of the border, so that those of the two
+    layers do not interlock."""
 
     name: str
     between: tuple[str, str]
@@ -198,8 +205,8 @@ class Water:
     def pressure_gradient_xy(self) -> tuple[float, float]:
         """∇p (x, y) [N/m³] itself.
 
-        Parallel seepage: the force −∇p is γ_w cos β along the normal (eq. 18), which is the sum of buoyancy, γ_w up, and seepage, γ_w sin β
-        down the plane. Hydrostatic: buoyancy alone.
+        Parallel seepage: the force −∇p is γ_w cos β along the normal (eq. 18), which is the sum of buoyancy, γ_w up,
+        and seepage, γ_w sin β down the plane. Hydrostatic: buoyancy alone.
         """
         if self.pressure_gradient == "hydrostatic":
             return 0.0, -self.unit_weight
@@ -221,7 +228,8 @@ class Water:
 class Settle:
     """Settling: at most `time_max` [s], until the mean speed is below `speed_rest` [m/s].
 
-    Gravity grows to its value during the first `ramp` [s]. `bond`: "before" it grows, or "after" the packing has come to rest under it.
+    Gravity grows to its value during the first `ramp` [s]. `bond`: "before" it grows, or "after" the packing has come
+    to rest under it.
     """
 
     ramp: float
@@ -254,8 +262,9 @@ class Stages:
 
 @dataclass(frozen=True)
 class Numerics:
-    """`time_step` [s], at most so long that disks in contact go the `path` against each other in mean diameters (None: always as long); relative
-    `tolerance`, and `tolerance_moving` while the slope moves, `max_iterations` a step, `verlet_distance` in smallest radii.
+    """`time_step` [s], at most so long that disks in contact go the `path` against each other in mean diameters (None:
+    always as long); relative `tolerance`, and `tolerance_moving` while the slope moves, `max_iterations` a step,
+    `verlet_distance` in smallest radii.
     """
 
     time_step: float

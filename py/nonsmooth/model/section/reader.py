@@ -23,7 +23,8 @@ from . import hints as section_hints, units as section_units
 
 __all__ = ["Document", "SectionError", "read", "schema", "take", "values"]
 
-# What a file may ask for, so that reading it ends within seconds; the shipped section has 17 kB, 400 values and 6 levels.
+# What a file may ask for, so that reading it ends within seconds; the shipped section has 17 kB, 400 values and 6
+# levels.
 FOLDER = Path(__file__).resolve().parents[2] / "sections"  # those that come with the package
 SCHEMA = FOLDER / "section.schema.yaml"
 
@@ -39,7 +40,9 @@ class SectionError(UserError, ValueError):
 
 
 class _Loader(yaml.SafeLoader):
-    """SafeLoader with the numbers of YAML 1.2 (1e5 is one; 1:30, 010 and a date are text), which refuses a key given twice."""
+    """SafeLoader with the numbers of YAML 1.2 (1e5 is one; 1:30, 010 and a date are text), which refuses a key given
+    twice.
+    """
 
     def construct_mapping(self, node, deep=False):
         seen = {}
@@ -75,7 +78,9 @@ _Loader.add_implicit_resolver(
 
 
 def values(text):
-    """The list that ``text`` is without its brackets, ``0.5, 1e4, [1, 2], name``, with the numbers of section files. Raises yaml.YAMLError."""
+    """The list that ``text`` is without its brackets, ``0.5, 1e4, [1, 2], name``, with the numbers of section files.
+    Raises yaml.YAMLError.
+    """
     return yaml.load(f"[{text}]", _Loader)
 
 
@@ -191,7 +196,9 @@ def _yaml(path: Path):
 
 
 def _size(root, path) -> None:
-    """Refuse a graph of nodes whose aliases come back to themselves or stand for too much, before anything follows them."""
+    """Refuse a graph of nodes whose aliases come back to themselves or stand for too much, before anything follows
+    them.
+    """
     sizes, open_ = {}, set()
 
     def size(node, depth):
@@ -222,7 +229,9 @@ def _size(root, path) -> None:
 
 
 def _plain(document: Document, value, keys=()) -> None:
-    """Refuse what JSON has not, NaN, infinities, keys that are no text, and what no message or computation could bear."""
+    """Refuse what JSON has not, NaN, infinities, keys that are no text, and what no message or computation could
+    bear.
+    """
     if isinstance(value, dict):
         for key, item in value.items():
             if not isinstance(key, str):
@@ -269,7 +278,9 @@ def _brief(value) -> str:
 
 
 def _explain(error, part=()) -> tuple[tuple, str, str]:
-    """Key path, what is wrong, and the remedy of a schema error; ``part``: keys that lead to the schema's part, as `read` takes them."""
+    """Key path, what is wrong, and the remedy of a schema error; ``part``: keys that lead to the schema's part, as
+    `read` takes them.
+    """
     keys, value, schema = tuple(error.absolute_path), error.instance, error.schema
     needed = f"needed: {schema['description']}" if "description" in schema else "correct it"
     if error.validator == "additionalProperties":
@@ -325,7 +336,9 @@ def read(path, schema_path, part=()) -> Document:
 
 
 def take(data, source, schema_path, part=()) -> Document:
-    """Check data of Python as `read` does a file: dictionaries, lists, tuples, arrays, numbers and texts; `source`: what messages begin with."""
+    """Check data of Python as `read` does a file: dictionaries, lists, tuples, arrays, numbers and texts; `source`:
+    what messages begin with.
+    """
     return _checked(Document(source, _as_plain(data)), schema_path, part)
 
 
@@ -339,7 +352,9 @@ def _as_plain(value):
 
 
 def _bare(document, rules) -> None:
-    """Refuse a file of a part of a section, such as a material, whose keys stand below a name, as they do in a section."""
+    """Refuse a file of a part of a section, such as a material, whose keys stand below a name, as they do in a
+    section.
+    """
     for key, value in document.data.items():
         if isinstance(value, (dict, list)) and key not in rules["properties"]:
             document.refuse(

@@ -29,8 +29,10 @@ MOST_DISKS = 10_000_000  # what asks for more is a slip of the pen: a million ta
 
 @dataclass(frozen=True)
 class Section:
-    """A checked section. `pressed`: its packing is pressed, see :mod:`.slope_packing`; `unusual`: keys of values that are meant, see :mod:`.section_units`; `source`: file read; `scale`: diameters by those of the file; `like`: a section that is packed instead, and the factor by which its disks are
-    then as large (see :mod:`.similar`), or None; `given`: what it was made from, see :mod:`.section_values`."""
+    """A checked section. `pressed`: its packing is pressed, see :mod:`.slope_packing`; `unusual`: keys of values that
+    are meant, see :mod:`.section_units`; `source`: file read; `scale`: diameters by those of the file; `like`: a
+    section that is packed instead, and the factor by which its disks are then as large (see :mod:`.similar`), or None;
+    `given`: what it was made from, see :mod:`.section_values`."""
 
     name: str
     description: str
@@ -69,7 +71,9 @@ class Section:
 
     @cached_property
     def packed_outline(self):
-        """What is filled with disks, a shapely MultiPolygon: the :attr:`outline`, raised where it is pressed afterwards."""
+        """What is filled with disks, a shapely MultiPolygon: the :attr:`outline`, raised where it is pressed
+        afterwards.
+        """
         return free_surface.raised(self, free_surface.PRESSED) if self.pressed else self.outline
 
     @cached_property
@@ -95,7 +99,9 @@ class Section:
 
     @cached_property
     def dip(self) -> float:
-        """β [degrees] of the slope, positive down to the right: of its slip surfaces from end to end, see :mod:`.roles`."""
+        """β [degrees] of the slope, positive down to the right: of its slip surfaces from end to end, see
+        :mod:`.roles`.
+        """
         return roles.dip_of(*roles.chord([points for _, points in self.slip_surfaces]))
 
     @property
@@ -135,7 +141,9 @@ class Section:
 
     @cached_property
     def slip_levels(self) -> dict[str, int]:
-        """How many slip surfaces lie below each, by its name, see :mod:`.stacks`; 0 for all where they lie side by side."""
+        """How many slip surfaces lie below each, by its name, see :mod:`.stacks`; 0 for all where they lie side by
+        side.
+        """
         return dict(zip((name for name, _ in self.slip_surfaces), stacks.levels([p for _, p in self.slip_surfaces])))
 
     @property
@@ -145,11 +153,15 @@ class Section:
 
     @property
     def stacked(self) -> tuple[str, ...]:
-        """Names of all slip surfaces where some lie one above another, and each has columns of its own; empty where they lie side by side."""
+        """Names of all slip surfaces where some lie one above another, and each has columns of its own; empty where
+        they lie side by side.
+        """
         return tuple(self.slip_levels) if any(self.slip_levels.values()) else ()
 
     def borne_by(self, surface: str) -> np.ndarray:
-        """The part of each layer of the mass that lies above a slip surface, (layers,); 0 for beds and obstacles. What the only one below all others bears is :attr:`borne`."""
+        """The part of each layer of the mass that lies above a slip surface, (layers,); 0 for beds and obstacles. What
+        the only one below all others bears is :attr:`borne`.
+        """
         if [one.name for one in self.lowest_surfaces] == [surface]:
             return self.borne.astype(float)
         part = stacks.part_beside([layer.polygon for layer in self.layers], [dict(self.slip_surfaces)[surface]])
@@ -157,7 +169,9 @@ class Section:
 
     @property
     def borne(self) -> np.ndarray:
-        """Whether the lowest slip surfaces bear each layer, bool (layers,): those of the mass that do not lie below them."""
+        """Whether the lowest slip surfaces bear each layer, bool (layers,): those of the mass that do not lie below
+        them.
+        """
         lines = [dict(self.slip_surfaces)[one.name] for one in self.lowest_surfaces]
         below = stacks.part_beside([layer.polygon for layer in self.layers], lines, above=False)
         return np.array([layer.role == "mass" for layer in self.layers]) & (below < 0.5)
@@ -170,8 +184,9 @@ class Section:
 
     @property
     def release_distance(self) -> float | None:
-        """Way downslope [m] that releases a disk from water for good: the water's own, or where that is "critical_slip" the D_c of the slip surfaces that weaken
-        (paper, section 5.4: one distance for both), of the water's plane where they have several. None without water.
+        """Way downslope [m] that releases a disk from water for good: the water's own, or where that is "critical_slip"
+        the D_c of the slip surfaces that weaken (paper, section 5.4: one distance for both), of the water's plane where
+        they have several. None without water.
         """
         if self.water is None:
             return None
@@ -196,7 +211,9 @@ class Section:
 
     @property
     def envelope(self) -> Envelope | None:
-        """Measured strength of the rock of the lowest layer, which the report sets beside the toe's; None where the section has none."""
+        """Measured strength of the rock of the lowest layer, which the report sets beside the toe's; None where the
+        section has none.
+        """
         return self.materials[self.layers[0].material].envelope
 
     def disks_of(self, layer: Layer) -> Disks:
@@ -227,7 +244,9 @@ class Section:
 
     @cached_property
     def _borders(self) -> tuple[float, ...]:
-        """Length [m] of each layer's share of the outline, and of flat interfaces, to six digits: the next ones depend on the version of GEOS."""
+        """Length [m] of each layer's share of the outline, and of flat interfaces, to six digits: the next ones depend
+        on the version of GEOS.
+        """
         rim = self.outline.boundary.buffer(10 * self.tolerance)
         flat = [(i.between, self.line_of(i)) for i in self.interfaces if i.flat]
         inside = {
@@ -315,8 +334,9 @@ class Section:
     def with_rock(self, rock: Material | Mapping) -> Section:
         """The same slope with all layers of `rock`; the names of their materials stay.
 
-        `rock`: a Material, all of whose values count as given, or the plain data of one (`laboratory.materials.data`), whose residual values follow the peak where
-        they are left out. Raises SectionError for a rock without density, and for what is no material.
+        `rock`: a Material, all of whose values count as given, or the plain data of one (`laboratory.materials.data`),
+        whose residual values follow the peak where they are left out. Raises SectionError for a rock without density,
+        and for what is no material.
         """
         if not isinstance(rock, (Material, Mapping)):
             remedy = "give a Material, or the plain data of one, as laboratory.materials.data('wwr') has it"
@@ -331,7 +351,8 @@ class Section:
         return self.with_values({("materials", layer.material): data for layer in self.layers})
 
     def with_critical_slip(self, distance: float) -> Section:
-        """The same slope with one critical distance D_c [m], as in the paper: of all its slip surfaces that weaken, and of the release from water.
+        """The same slope with one critical distance D_c [m], as in the paper: of all its slip surfaces that weaken, and
+        of the release from water.
 
         Raises SectionError where no slip surface weakens, and for what is no distance.
         """
@@ -349,16 +370,20 @@ class Section:
         return self.with_values(values)
 
     def with_values(self, values: Mapping, source: str | None = None) -> Section:
-        """The same slope with other values, {key: value}: what a file that says them gives, so that what follows from them follows (:func:`.section_values.with_values`).
+        """The same slope with other values, {key: value}: what a file that says them gives, so that what follows from
+        them follows (:func:`.section_values.with_values`).
 
-        A key is the way to a value in a section file with dots, ``materials.soil.friction``, ``walls.DP.material``, or its words, ``("materials", "soil", "friction")``.
-        `source`: what messages begin with instead of the section's. Raises SectionError for a key that leads nowhere, and for what is no section.
+        A key is the way to a value in a section file with dots, ``materials.soil.friction``, ``walls.DP.material``, or
+        its words, ``("materials", "soil", "friction")``. `source`: what messages begin with instead of the section's.
+        Raises SectionError for a key that leads nowhere, and for what is no section.
         """
         return section_values.with_values(self, values, source)
 
     @property
     def longest_step(self) -> float:
-        """Time step [s] in which a disk that has fallen by its own diameter, the smallest one, falls by as much again."""
+        """Time step [s] in which a disk that has fallen by its own diameter, the smallest one, falls by as much
+        again.
+        """
         return math.sqrt(self.smallest / (2 * self.gravity))
 
     def _check_room(self, what: str, remedy: str) -> None:

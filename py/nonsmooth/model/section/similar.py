@@ -1,7 +1,8 @@
 """The same slope seen in a mirror, and at another size. Needs no YADE.
 
-Two slopes of rock are similar (Froude) where lengths are in the ratio s and gravity and densities are the same: then times and speeds are in the ratio √s,
-stresses and so strengths in the ratio s, forces on walls in the ratio s² (per metre of thickness), and numbers without a unit are equal.
+Two slopes of rock are similar (Froude) where lengths are in the ratio s and gravity and densities are the same: then
+times and speeds are in the ratio √s, stresses and so strengths in the ratio s, forces on walls in the ratio s² (per
+metre of thickness), and numbers without a unit are equal.
 """
 
 from __future__ import annotations
@@ -20,8 +21,8 @@ __all__ = ["mirrored", "mirrored_packing", "original_value", "scaled", "scaled_p
 
 FACTORS = (1e-5, 1e3)  # of sizes: a slope of 2 km from 2 cm to 2,000 km
 
-# Powers of the ratio of lengths with which values go, by their keys without the names of items; for a list of pairs one each. What is not here has no unit, or that
-# of a density, of gravity or of a weight by volume.
+# Powers of the ratio of lengths with which values go, by their keys without the names of items; for a list of pairs one
+# each. What is not here has no unit, or that of a density, of gravity or of a weight by volume.
 TIME, LENGTH, SPEED, STRESS = 0.5, 1, 0.5, 1
 POWERS = {
     "walls.vertices": LENGTH,
@@ -58,7 +59,9 @@ _NAMED = ("walls", "layers", "interfaces", "materials")  # whose items have name
 
 @_OF_A_SECTION
 def mirrored(section: Section) -> Section:
-    """The Section with left and right exchanged: every x changes its sign. Mirrored twice it is as it was, to the last bit."""
+    """The Section with left and right exchanged: every x changes its sign. Mirrored twice it is as it was, to the last
+    bit.
+    """
     made = _rebuilt(section, _mirrored(section_data.plain(section)))
     like = section.like and (mirrored(section.like[0]), section.like[1])
     made = dataclasses.replace(made, like=like, disks=section.disks, scale=section.scale)
@@ -101,7 +104,9 @@ def scaled_packing(packing, factor):
 
 @_OF_A_SECTION
 def scaled(section: Section, factor: float) -> Section:
-    """The Section ``factor`` times as large, with all times, speeds and strengths so that it does the same, and with the same packing. Raises SectionError for a factor out of all bounds."""
+    """The Section ``factor`` times as large, with all times, speeds and strengths so that it does the same, and with
+    the same packing. Raises SectionError for a factor out of all bounds.
+    """
     remedy = f"give a factor from {FACTORS[0]:g} to {FACTORS[1]:g}"
     checks.number(f"{section.source}: factor", factor, SectionError, remedy, least=FACTORS[0], most=FACTORS[1])
     made = _rebuilt(section, _scaled(section_data.plain(section), factor))
@@ -128,7 +133,9 @@ def with_disks_of(section: Section, original: Section, factor: float) -> Section
 
 
 def original_value(key, value, factor):
-    """The value of a key of a section (see :mod:`.section_values`) that is ``factor`` times as large as its original, for the original."""
+    """The value of a key of a section (see :mod:`.section_values`) that is ``factor`` times as large as its original,
+    for the original.
+    """
     words = section_values.words(key)
     if len(words) == 1:
         return _scaled({words[0]: value}, 1 / factor)[words[0]]

@@ -1,6 +1,8 @@
-"""Values of a section that no rock, soil or water has, and that are common ones in another unit: friction in degrees, strengths in kPa, unit weights in kN/m³. Needs no YADE.
+"""Values of a section that no rock, soil or water has, and that are common ones in another unit: friction in degrees,
+strengths in kPa, unit weights in kN/m³. Needs no YADE.
 
-Such a value is refused with what it would be in the section's units. A section that means it lists its key in ``unusual``.
+Such a value is refused with what it would be in the section's units. A section that means it lists its key in
+``unusual``.
 """
 
 from __future__ import annotations
@@ -20,7 +22,9 @@ WATER = (
     20_000.0,
 )  # kg/m³, of the fluid; wide, as a file may state the unit weight on Earth, and a sweep change gravity
 GRADIENT = (0.02, 50.0)  # of the unit weight of water
-WEAKEST = 2e-4  # of the weight by area of the slope, ρ g L: a strength below it does nothing there; 5 kPa on the paper's slope is five times as much
+# of the weight by area of the slope, ρ g L: a strength below it does nothing there; 5 kPa on the paper's slope is five
+# times as much
+WEAKEST = 2e-4
 NOMINAL = 2000.0  # kg/m³, ρ of that
 LEAST_ANGLE = 3.0  # degrees, of a measured envelope; smaller ones are radians
 
@@ -30,7 +34,9 @@ _ROLLING = ("rolling_friction", "residual_rolling_friction")
 
 
 def check(document) -> None:
-    """Raise SectionError at the first value of a section, plain data that meet the schema, that looks like one in another unit and that is not listed in ``unusual``."""
+    """Raise SectionError at the first value of a section, plain data that meet the schema, that looks like one in
+    another unit and that is not listed in ``unusual``.
+    """
     data = document.data
     gravity, meant = data.get("gravity", GRAVITY), data.get("unusual", ())
     area = math.fsum(geometry.area(layer["vertices"]) for layer in data["layers"])
@@ -52,7 +58,9 @@ def check_material(document) -> None:
 
 
 def hint(key, value) -> str:
-    """What a number that is out of all bounds may be in the units of a section; ``key``: the last word of its key. Empty where that is not known."""
+    """What a number that is out of all bounds may be in the units of a section; ``key``: the last word of its key.
+    Empty where that is not known.
+    """
     found = _of_material((key,), value, GRAVITY, 0.0) or (
         _unit_weight(value, GRAVITY) if key == "unit_weight" else None
     )
@@ -60,7 +68,9 @@ def hint(key, value) -> str:
 
 
 def wrong(key, value) -> str:
-    """What is wrong with a number of a material that stands in no section, and what may be meant, as one sentence; empty where nothing is."""
+    """What is wrong with a number of a material that stands in no section, and what may be meant, as one sentence;
+    empty where nothing is.
+    """
     return "; ".join(_of_material((key,), value, GRAVITY, 0.0) or ())
 
 
@@ -86,7 +96,9 @@ def _check(document, keys, found, meant):
 
 
 def _of_material(keys, value, gravity, stress):
-    """(what is wrong, what may be meant) of a number of a material; None where nothing is. ``stress`` [Pa]: the weight by area of the slope."""
+    """(what is wrong, what may be meant) of a number of a material; None where nothing is. ``stress`` [Pa]: the weight
+    by area of the slope.
+    """
     key = keys[-1]
     if key in _FRICTIONS and value > STEEPEST:
         angle = f": {value:g} degrees are {math.tan(math.radians(value)):.3g}" if value < 89 else ""

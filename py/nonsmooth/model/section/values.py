@@ -1,7 +1,9 @@
-"""What a section was given, before anything is filled in or derived, and the same section with other values. Needs no YADE.
+"""What a section was given, before anything is filled in or derived, and the same section with other values. Needs no
+YADE.
 
-A value that a section does not state follows from others: a residual friction from the peak, a time step from the diameters and gravity, the unit weight of water
-from gravity. So a value is always changed in the plain data that were given, and the section is built from these again: the result is that of a file with this value.
+A value that a section does not state follows from others: a residual friction from the peak, a time step from the
+diameters and gravity, the unit weight of water from gravity. So a value is always changed in the plain data that were
+given, and the section is built from these again: the result is that of a file with this value.
 """
 
 from __future__ import annotations
@@ -49,7 +51,9 @@ class NoSuchKey(SectionError):
 
 @dataclass(frozen=True)
 class Given:
-    """``data``: the keys and values of a section file, nothing filled in; ``fields``: of the Section that was built from them."""
+    """``data``: the keys and values of a section file, nothing filled in; ``fields``: of the Section that was built
+    from them.
+    """
 
     data: Mapping
     fields: Mapping
@@ -68,9 +72,11 @@ def keep_value(section, before, key, value):
 
 
 def given(section) -> dict:
-    """Plain data of a section file that gives this Section, without what the section fills in or derives itself; `section.of` takes them.
+    """Plain data of a section file that gives this Section, without what the section fills in or derives itself;
+    `section.of` takes them.
 
-    What `dataclasses.replace` has changed since counts as given, whole. A similar section (`like`) loses where it came from.
+    What `dataclasses.replace` has changed since counts as given, whole. A similar section (`like`) loses where it came
+    from.
     """
     if not hasattr(section, "given"):
         raise SectionError(f"section {checks.shown(section)}: give a Section, as section.load('circle') returns one")
@@ -93,10 +99,12 @@ def given(section) -> dict:
 
 
 def with_values(section, values, source=None):
-    """The Section that a file with these ``values`` gives: {key: value}, where a key is the way to a value with dots, ``materials.soil.friction``, or its words as
-    a tuple, and items of lists go by their names, ``walls.DP.material``. ``source``: what messages begin with, the section's own where it is left out.
+    """The Section that a file with these ``values`` gives: {key: value}, where a key is the way to a value with dots,
+    ``materials.soil.friction``, or its words as a tuple, and items of lists go by their names, ``walls.DP.material``.
+    ``source``: what messages begin with, the section's own where it is left out.
 
-    Values of a similar section (:mod:`.similar`) are those of its own size. Raises NoSuchKey for a key that leads nowhere, SectionError for what is no section.
+    Values of a similar section (:mod:`.similar`) are those of its own size. Raises NoSuchKey for a key that leads
+    nowhere, SectionError for what is no section.
     """
     from . import loading, similar
 
@@ -116,8 +124,8 @@ def with_values(section, values, source=None):
 
 
 def put(data, key, value):
-    """Puts a value into the plain data of a section, where the ``key`` leads (see :func:`with_values`). Groups of keys that are not there yet are made. Raises
-    NoSuchKey where the key leads nowhere."""
+    """Puts a value into the plain data of a section, where the ``key`` leads (see :func:`with_values`). Groups of keys
+    that are not there yet are made. Raises NoSuchKey where the key leads nowhere."""
     place, way = data, words(key)
     key = ".".join(way)
     for k, word in enumerate(way):
@@ -174,7 +182,9 @@ def _whole():
 
 
 def _is_group(way):
-    """Whether this way leads to a group of keys that a section may have, such as ``stages.end``; names of items are any."""
+    """Whether this way leads to a group of keys that a section may have, such as ``stages.end``; names of items are
+    any.
+    """
     place = _whole()
     for word in way:
         inside = place.get("items", place)  # an item of a list

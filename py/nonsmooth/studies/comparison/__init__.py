@@ -11,6 +11,6 @@
 * :mod:`precision`: errors against a reference, scatter, work and precision, rates of convergence;
 * :mod:`cost`: wall time at the paper's scale, on several threads;
 * :mod:`summary`, :mod:`answers`, :mod:`figures`, :mod:`report`: what comes out;
-* :mod:`common`: sections of the report that several experiments have; :mod:`slope_report`, :mod:`biaxial_report`, :mod:`collapse_report`,
-  :mod:`cost_report`: those of one.
+* :mod:`common`: sections of the report that several experiments have; :mod:`slope_report`, :mod:`biaxial_report`,
+  :mod:`collapse_report`, :mod:`cost_report`: those of one.
 """

@@ -40,8 +40,8 @@ def spread(mean, sd, unit):
 
 
 def answer_same(summary, names):
-    """Sentences on whether both worlds agree in the quantities ``names``: (verdict, sentences); the verdict is "yes", "no", "in part" where they agree in
-    some, or "not told" where one of them needs more seeds."""
+    """Sentences on whether both worlds agree in the quantities ``names``: (verdict, sentences); the verdict is "yes",
+    "no", "in part" where they agree in some, or "not told" where one of them needs more seeds."""
     sentences, verdicts = [], []
     seeds = len(summary["seeds"])
     for name in names:
@@ -75,7 +75,9 @@ def answer_same(summary, names):
 
 
 def answer_costs(summary):
-    """Sentences on which world costs less at equal accuracy: (verdict, sentences); the verdict is "hard", "soft" or "not told"."""
+    """Sentences on which world costs less at equal accuracy: (verdict, sentences); the verdict is "hard", "soft" or
+    "not told".
+    """
     work = summary["work_precision"]
     found, sentences = work["against_hard"]["compared"], []
     verdict = "not told"

@@ -1,4 +1,6 @@
-"""The biaxial test in both worlds: the same pressed sample, platens, membrane and rate (:mod:`yade.nonsmooth.laboratory.biaxial`)."""
+"""The biaxial test in both worlds: the same pressed sample, platens, membrane and rate
+(:mod:`yade.nonsmooth.laboratory.biaxial`).
+"""
 
 from __future__ import annotations
 
@@ -22,7 +24,8 @@ __all__ = ["CURVES", "DEFAULT_STIFFNESSES", "KEYS", "QUANTITIES", "disks_of", "m
 
 NAME, TITLE = "biaxial", "Biaxial test"
 SOURCE, DISKS = "wwr", 1000
-#: Young's moduli [Pa]: with stresses of some MPa, contacts overlap by a tenth at the softest; one more decade would cost as much as all others together.
+#: Young's moduli [Pa]: with stresses of some MPa, contacts overlap by a tenth at the softest; one more decade would
+#: cost as much as all others together.
 DEFAULT_STIFFNESSES = (1e7, 1e8, 1e9, 1e10)
 ENSEMBLE_STIFFNESS = 1e10  # Pa, for all seeds: below it the sample's elastic strain up to the peak is no longer small
 CONFINING, STRAIN = 1e6, 0.06  # Pa; axial strain at the end, unless the case has others

@@ -2,13 +2,16 @@
 
 The plan has five parts, all on the packing of the first seed but the first:
 
-* ensemble: every seed, hard with the section's own numerics and soft with the ensemble's stiffness, in pairs of the same packing. It tells
-  difference from scatter;
-* sweep: all other stiffnesses, each with its own stable step. Soft runs cost with the root of the stiffness, so one seed has to do;
-* numerics: hard runs with other time steps and tolerances, the finest of which is the reference of the hard world. The stiffest soft run is the reference
-  of the soft one;
-* bonds: a soft run whose bonds break at once where they reach a threshold, as YADE's do, instead of yielding there as in the hard law;
-* damping: a soft run of the ensemble's stiffness whose damping stays what it was at rest, to show what damping does to the motion.
+* ensemble: every seed, hard with the section's own numerics and soft with the ensemble's stiffness, in pairs of the
+  same packing. It tells difference from scatter;
+* sweep: all other stiffnesses, each with its own stable step. Soft runs cost with the root of the stiffness, so one
+  seed has to do;
+* numerics: hard runs with other time steps and tolerances, the finest of which is the reference of the hard world. The
+  stiffest soft run is the reference of the soft one;
+* bonds: a soft run whose bonds break at once where they reach a threshold, as YADE's do, instead of yielding there as
+  in the hard law;
+* damping: a soft run of the ensemble's stiffness whose damping stays what it was at rest, to show what damping does to
+  the motion.
 """
 
 from __future__ import annotations
@@ -38,7 +41,9 @@ def modulus_label(modulus):
 
 
 def moduli_of(stiffnesses, least=1):
-    """Young's moduli [Pa], sorted, each once. Raises ComparisonError for one that is no number above 0, and for fewer than ``least``."""
+    """Young's moduli [Pa], sorted, each once. Raises ComparisonError for one that is no number above 0, and for fewer
+    than ``least``.
+    """
     chosen = sorted(set(map(float, stiffnesses)))
     told = ", ".join(f"{e:g}" for e in chosen) or "nothing"
     if not all(0 < e < math.inf for e in chosen):
@@ -51,7 +56,9 @@ def moduli_of(stiffnesses, least=1):
 
 
 def check_soft(damping, damping_moving, step_share):
-    """Raises ComparisonError for dampings (``damping_moving`` may be None) and a share of the stable step that soft runs cannot have."""
+    """Raises ComparisonError for dampings (``damping_moving`` may be None) and a share of the stable step that soft
+    runs cannot have.
+    """
     for key, value in (("--damping", damping), ("--damping-moving", damping_moving)):
         if value is not None and not 0 <= value < 1:
             raise ComparisonError(f"{key} {value:g}: give a number from 0 to less than 1")
@@ -63,11 +70,12 @@ def check_soft(damping, damping_moving, step_share):
 
 @dataclass(frozen=True)
 class Case:
-    """One run. ``world``: "hard" or "soft"; ``source``: section or material of the scenario; ``disks``: their number; ``seed``: of the packing.
+    """One run. ``world``: "hard" or "soft"; ``source``: section or material of the scenario; ``disks``: their number;
+    ``seed``: of the packing.
 
-    Hard: ``step``, ``tolerance``: factors on the scenario's own. Soft: ``stiffness``: Young's modulus [Pa]; ``step``: share of the stability limit;
-    ``damping``, ``damping_moving``: non-viscous, at rest and while the mass moves (None: not told apart); ``model``: see :mod:`yade.nonsmooth.soft`;
-    ``fragile``: bonds do not yield before they break.
+    Hard: ``step``, ``tolerance``: factors on the scenario's own. Soft: ``stiffness``: Young's modulus [Pa]; ``step``:
+    share of the stability limit; ``damping``, ``damping_moving``: non-viscous, at rest and while the mass moves (None:
+    not told apart); ``model``: see :mod:`yade.nonsmooth.soft`; ``fragile``: bonds do not yield before they break.
     ``options``: what else the scenario takes.
     """
 
@@ -152,9 +160,9 @@ def plan(
 ) -> ComparisonPlan:
     """The runs of a comparison.
 
-    ``stiffnesses``: Young's moduli [Pa]; ``ensemble``: the one of the ensemble (default: the upper of the middle ones); ``numerics``: pairs as
-    HARD_NUMERICS; ``fragile``: of the soft bonds; ``bonds_run``: with one soft run of the other kind of bonds. Raises ComparisonError for lists and
-    numbers that cannot be used.
+    ``stiffnesses``: Young's moduli [Pa]; ``ensemble``: the one of the ensemble (default: the upper of the middle ones);
+    ``numerics``: pairs as HARD_NUMERICS; ``fragile``: of the soft bonds; ``bonds_run``: with one soft run of the other
+    kind of bonds. Raises ComparisonError for lists and numbers that cannot be used.
     """
     chosen = moduli_of(stiffnesses, 2)
     if not seeds or len(set(seeds)) < len(seeds) or min(seeds) < 0:

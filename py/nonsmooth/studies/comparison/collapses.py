@@ -48,13 +48,16 @@ class Collapse:
         self.run = _RUN[kind]
 
     def disks_of(self, case: Case):
-        """Material of the disks, in a list, and their smallest and largest diameter [m]. Raises HeapError for parameters that cannot be used."""
+        """Material of the disks, in a list, and their smallest and largest diameter [m]. Raises HeapError for
+        parameters that cannot be used.
+        """
         heap = _heap(self.NAME, case)
         return [heap.material()], heap.diameters()
 
     def least_stiffness(self, case: Case):
-        """Young's modulus [Pa] with which disks at the bottom overlap by as much as heaps.course.build lets through, under the weight of disks as high as
-        the box. They settle by some per cent, so what stands here does there. Raises SampleError for a box that is too narrow.
+        """Young's modulus [Pa] with which disks at the bottom overlap by as much as heaps.course.build lets through,
+        under the weight of disks as high as the box. They settle by some per cent, so what stands here does there.
+        Raises SampleError for a box that is too narrow.
         """
         from ..heaps.course import WEIGHT_OVERLAP
 

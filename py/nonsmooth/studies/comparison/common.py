@@ -51,7 +51,9 @@ def series(outcome):
 
 
 def deposit_section(folder, plan, outcomes, walls):
-    """A list with the section on deposits of the first seed, empty where a run left none; ``walls``: as style.as_walls takes them."""
+    """A list with the section on deposits of the first seed, empty where a run left none; ``walls``: as style.as_walls
+    takes them.
+    """
     hard, soft = (outcomes[c] for c in plan.ensemble[0])
     if hard.deposit is None or soft.deposit is None:
         return []
@@ -114,7 +116,9 @@ def damping_section(folder, plan, outcomes, clock):
 
 
 def bonds_section(folder, plan, outcomes, columns, abscissa, pick=series):
-    """The run with fragile bonds, beside the one with ductile ones, and the hard one; ``columns`` and ``abscissa`` of ``pick``."""
+    """The run with fragile bonds, beside the one with ductile ones, and the hard one; ``columns`` and ``abscissa`` of
+    ``pick``.
+    """
     fragile = outcomes[plan.fragile]
     usual = next(outcomes[c] for c in plan.sweep if c.stiffness == plan.fragile.stiffness)
     groups = [

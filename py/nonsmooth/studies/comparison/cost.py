@@ -1,14 +1,15 @@
 """Wall time for a second of simulation at the paper's scale, soft over hard, on several threads.
 
-Both worlds hold the same disks at the same places: those of the benchmark's states (:mod:`yade.nonsmooth.studies.slope.states`), the slope at rest
-under its weight, and on the move (backstop and plane without strength, water table at 20 m, mean speed 5 m/s). The hard steps are timed from there.
-For soft contacts the scene is built anew from these places and velocities, with the bonds that held; it runs :data:`RELAX_SECONDS`, in which
+Both worlds hold the same disks at the same places: those of the benchmark's states
+(:mod:`yade.nonsmooth.studies.slope.states`), the slope at rest under its weight, and on the move (backstop and plane
+without strength, water table at 20 m, mean speed 5 m/s). The hard steps are timed from there. For soft contacts the
+scene is built anew from these places and velocities, with the bonds that held; it runs :data:`RELAX_SECONDS`, in which
 springs take up the weight, and is then timed. The soft step is a share of its stability limit.
 
-Overlap has one definition: mean over contacts that touch or bear a force of the overlap over the mean diameter. Soft overlaps fall as 1/E, so the
-stiffness of equal overlap is read from straight lines between logarithms, beyond the stiffest along the last one; the cost grows as √E with the
-number of steps, see precision.soft_rate. Most rigid contacts do not overlap at all, which a mean rewards; so the factor at equal largest overlap is
-given as well.
+Overlap has one definition: mean over contacts that touch or bear a force of the overlap over the mean diameter. Soft
+overlaps fall as 1/E, so the stiffness of equal overlap is read from straight lines between logarithms, beyond the
+stiffest along the last one; the cost grows as √E with the number of steps, see precision.soft_rate. Most rigid contacts
+do not overlap at all, which a mean rewards; so the factor at equal largest overlap is given as well.
 """
 
 from __future__ import annotations
@@ -56,7 +57,9 @@ def measure_hard(folder, source, disks, state, steps):
 def measure_soft(
     folder, source, disks, state, stiffness, steps, damping, step_share, relax=RELAX_SECONDS, model="cohesion_moment"
 ):
-    """The same on soft contacts with this Young's modulus [Pa]; ``damping``: of the integrator, ``step_share``: of the stability limit."""
+    """The same on soft contacts with this Young's modulus [Pa]; ``damping``: of the integrator, ``step_share``: of the
+    stability limit.
+    """
     from yade import O
 
     from ...packing import files as packing_files
@@ -105,8 +108,8 @@ def measure_soft(
 
 
 def _timed(steps, solver):
-    """Makes ``steps`` steps in LOOKS blocks; returns the mean wall time a step [s] of each block, the mean and the largest overlap after each, the number
-    of steps, and the time that they simulated [s]."""
+    """Makes ``steps`` steps in LOOKS blocks; returns the mean wall time a step [s] of each block, the mean and the
+    largest overlap after each, the number of steps, and the time that they simulated [s]."""
     from yade import O
 
     from ...world.stepping import advance
@@ -141,8 +144,8 @@ def _layer(label):
 
 
 def _without_strength(chosen, walls):
-    """The section with walls that bear neither shear nor tension, as benchmark.states leaves them on the move. Their critical slip stays: the release of the water
-    may be told by it."""
+    """The section with walls that bear neither shear nor tension, as benchmark.states leaves them on the move. Their
+    critical slip stays: the release of the water may be told by it."""
     made = dict(chosen.materials)
     changed = []
     for wall in chosen.walls:
@@ -200,10 +203,11 @@ def run(
     progress=lambda share, doing: None,
     model="cohesion_moment",
 ):
-    """Makes the states that are missing and measures both worlds, one process after the other on ``threads``; returns :func:`summarise` of it.
+    """Makes the states that are missing and measures both worlds, one process after the other on ``threads``; returns
+    :func:`summarise` of it.
 
-    ``stiffnesses``: Young's moduli [Pa]; ``steps``: that are timed, :data:`LOOKS` or more. Raises ComparisonError before anything runs for numbers that
-    cannot be used, and benchmark.states.BenchmarkError where a measurement fails.
+    ``stiffnesses``: Young's moduli [Pa]; ``steps``: that are timed, :data:`LOOKS` or more. Raises ComparisonError
+    before anything runs for numbers that cannot be used, and benchmark.states.BenchmarkError where a measurement fails.
     """
     from ..slope import states
 
@@ -289,7 +293,9 @@ def run(
 
 
 def summarise(found):
-    """Factors of ``found``, {"hard": {state: numbers}, "soft": {state: [numbers by stiffness]}}; the headline ones are those of the moving slope."""
+    """Factors of ``found``, {"hard": {state: numbers}, "soft": {state: [numbers by stiffness]}}; the headline ones are
+    those of the moving slope.
+    """
     states = {}
     for state, hard in found["hard"].items():
         soft = found["soft"][state]

@@ -16,7 +16,9 @@ STATE_NAMES = {"moving": "during the avalanche", "rest": "at rest"}
 
 
 def write(out, told):
-    """Writes ``summary.json``, the figure and ``report.html`` of what cost.run found into ``out``; returns the answered questions."""
+    """Writes ``summary.json``, the figure and ``report.html`` of what cost.run found into ``out``; returns the answered
+    questions.
+    """
     out = Path(out)
     folder = out / "figures"
     folder.mkdir(parents=True, exist_ok=True)

@@ -52,11 +52,12 @@ def compare(
     options=None,
     **plan_options,
 ):
-    """Runs all cases that are not kept, writes ``summary.json`` and ``report.html`` into ``out``; returns the summary and the answered questions.
+    """Runs all cases that are not kept, writes ``summary.json`` and ``report.html`` into ``out``; returns the summary
+    and the answered questions.
 
-    ``scenario``: a key of SCENARIOS; arguments that are None take the scenario's own; ``without``: names from PARTS that
-    are left out; ``plan_options``: of cases.plan. Raises ComparisonError (or the scenario's own UserError) before anything runs for arguments that cannot
-    be used, and ComparisonError after all runs have ended where one failed.
+    ``scenario``: a key of SCENARIOS; arguments that are None take the scenario's own; ``without``: names from PARTS
+    that are left out; ``plan_options``: of cases.plan. Raises ComparisonError (or the scenario's own UserError) before
+    anything runs for arguments that cannot be used, and ComparisonError after all runs have ended where one failed.
     """
     began, out = time.monotonic(), Path(out)
     experiment, pages = SCENARIOS[scenario]
@@ -123,14 +124,18 @@ def compare(
 
 
 def answered(folder, **arguments):
-    """:func:`compare` in a process of its own: writes into the folder and returns ``questions`` with their answers, (text, verdict, sentences) each."""
+    """:func:`compare` in a process of its own: writes into the folder and returns ``questions`` with their answers,
+    (text, verdict, sentences) each.
+    """
     note = kept_runs.Progress(folder)
     _, questions = compare(out=folder, progress=lambda share, doing: note(share), **arguments)
     return {"questions": questions}
 
 
 def check_stiffnesses(experiment, sweep):
-    """Raises ComparisonError for soft cases of ``sweep`` that would refuse once they run, since their springs are too weak for the weight on them."""
+    """Raises ComparisonError for soft cases of ``sweep`` that would refuse once they run, since their springs are too
+    weak for the weight on them.
+    """
     least = experiment.least_stiffness(sweep[0]) if hasattr(experiment, "least_stiffness") else 0.0
     weak, strong = ([f"{c.stiffness:g}" for c in sweep if (c.stiffness < least) == below] for below in (True, False))
     if weak:

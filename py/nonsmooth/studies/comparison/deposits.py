@@ -11,7 +11,8 @@ CORNERS = 4  # of a quarter of a circle
 
 
 def outline(x, y, r, closing=None):
-    """The mass as a shapely geometry: the union of its disks, with pores closed. ``x``, ``y``, ``r``: arrays of shape (n,) [m].
+    """The mass as a shapely geometry: the union of its disks, with pores closed. ``x``, ``y``, ``r``: arrays of shape
+    (n,) [m].
 
     ``closing``: gaps narrower than twice this length [m] are filled (default: the mean radius).
     """
@@ -22,7 +23,9 @@ def outline(x, y, r, closing=None):
 
 
 def overlap(one, other):
-    """Area that two outlines share, as a part of what either covers: 1 for the same, 0 for none in common. ``one``, ``other``: of :func:`outline`."""
+    """Area that two outlines share, as a part of what either covers: 1 for the same, 0 for none in common. ``one``,
+    ``other``: of :func:`outline`.
+    """
     whole = one.union(other).area
     return one.intersection(other).area / whole if whole > 0 else 0.0
 

@@ -1,4 +1,6 @@
-"""Figures of a comparison. Each takes data and the path of a PNG, which it returns, or the Figure without one; hard is blue, soft orange, stiffer contacts darker."""
+"""Figures of a comparison. Each takes data and the path of a PNG, which it returns, or the Figure without one; hard is
+blue, soft orange, stiffer contacts darker.
+"""
 
 from __future__ import annotations
 
@@ -53,7 +55,9 @@ def _patch(geometry, **options):
 
 @style.styled
 def deposits_overlaid(hard, soft, begin, walls, share, path=None):
-    """Both deposits over each other; ``hard``, ``soft``: outlines; ``begin``: outline before, or None; ``share``: of the area that both cover."""
+    """Both deposits over each other; ``hard``, ``soft``: outlines; ``begin``: outline before, or None; ``share``: of
+    the area that both cover.
+    """
     both = hard.intersection(soft)
     boxes = np.array([g.bounds for g in (hard, soft, *([begin] if begin is not None else []))])
     (x0, y0), (x1, y1) = boxes[:, :2].min(axis=0), boxes[:, 2:].max(axis=0)
@@ -89,8 +93,8 @@ def deposits_overlaid(hard, soft, begin, walls, share, path=None):
 def courses(groups, columns, abscissa, path=None):
     """Curves of many runs, one panel a column.
 
-    ``groups``: list of (label, colour, list of {name: array}); runs of a group have one colour, the first line of it the label. ``columns``: list of (name,
-    label of the axis, factor); ``abscissa``: (name, label, factor).
+    ``groups``: list of (label, colour, list of {name: array}); runs of a group have one colour, the first line of it
+    the label. ``columns``: list of (name, label of the axis, factor); ``abscissa``: (name, label, factor).
     """
     fig = style.figure(9.5, 1.0 + 2.3 * len(columns), layout="constrained")
     axes = np.atleast_1d(fig.subplots(len(columns), 1, sharex=True))
@@ -178,7 +182,9 @@ def _log_axes(fig, xlabel, ylabel):
 
 @style.styled
 def overlaps(moduli, rest, moving, hard_rest, hard_moving, path=None, when=("at rest", "while moving")):
-    """Mean overlaps [mean diameters] against stiffness [Pa], the hard run's as lines (drawn at 1e-12 where they are less); ``when``: names of both states."""
+    """Mean overlaps [mean diameters] against stiffness [Pa], the hard run's as lines (drawn at 1e-12 where they are
+    less); ``when``: names of both states.
+    """
     fig = style.figure(7.5, 4.8, layout="constrained")
     ax = _log_axes(fig, "Young's modulus [Pa]", "mean overlap [mean diameters]")
     for values, dash, mark, name in ((moving, "-", "s", when[1]), (rest, (0, (4, 2)), "o", when[0])):
@@ -213,8 +219,8 @@ def cost(moduli, rates, steps, hard_rate, hard_steps, path=None):
 def cost_and_overlap(panels, path=None):
     """Wall time for a second of simulation against mean overlap.
 
-    ``panels``: list of (title, hard, [soft, …], factor) with dictionaries as cost.measure_hard and measure_soft return, softest first, and soft over hard
-    at equal overlap (None: not known).
+    ``panels``: list of (title, hard, [soft, …], factor) with dictionaries as cost.measure_hard and measure_soft return,
+    softest first, and soft over hard at equal overlap (None: not known).
     """
     fig = style.figure(11, 4.8, layout="constrained")
     for ax, (title, hard, soft, factor) in zip(
@@ -256,8 +262,8 @@ def cost_and_overlap(panels, path=None):
 def work_precision(panels, chance, path=None):
     """Error against wall time.
 
-    ``panels``: list of (title, hard, soft, aside), each but the title a list of (wall [s], error, label); ``aside``: soft runs with open marks;
-    ``chance``: scatter, NaN or None where unknown.
+    ``panels``: list of (title, hard, soft, aside), each but the title a list of (wall [s], error, label); ``aside``:
+    soft runs with open marks; ``chance``: scatter, NaN or None where unknown.
     """
     fig = style.figure(11, 5.2, layout="constrained")
     chance = chance if chance and np.isfinite(chance) else None
@@ -306,7 +312,9 @@ def _drawable(points):
 
 
 def _name_points(ax, named, level=None):
-    """Writes the labels of ``named``, pairs ((x, y, label), colour), beside their points, clear of points, other labels, the legend and the line at ``level``."""
+    """Writes the labels of ``named``, pairs ((x, y, label), colour), beside their points, clear of points, other
+    labels, the legend and the line at ``level``.
+    """
     taken = [
         Bbox.from_extents(x - 5, y - 5, x + 5, y + 5) for x, y in ax.transData.transform([p[:2] for p, _ in named])
     ] + [ax.get_legend().get_window_extent()]
@@ -343,7 +351,9 @@ def _name_points(ax, named, level=None):
 
 @style.styled
 def convergence(moduli, rows, path=None):
-    """Differences from the hard run against stiffness, a panel for each of ``rows``: (title, differences, scatter or None, power or None, scale or None)."""
+    """Differences from the hard run against stiffness, a panel for each of ``rows``: (title, differences, scatter or
+    None, power or None, scale or None).
+    """
     across = 3
     down = -(-len(rows) // across)
     fig = style.figure(11, 0.6 + 2.5 * down, layout="constrained")
@@ -381,7 +391,9 @@ def convergence(moduli, rows, path=None):
 
 @style.styled
 def network(moduli, correlations, hard, path=None):
-    """Correlation of normal forces at the same contacts with the hard run's; ``hard``: list of (label, correlation) of other hard runs."""
+    """Correlation of normal forces at the same contacts with the hard run's; ``hard``: list of (label, correlation) of
+    other hard runs.
+    """
     fig = style.figure(7.5, 4.2, layout="constrained")
     ax = fig.subplots()
     ax.plot(moduli, [np.nan if c is None else c for c in correlations], color=SOFT, marker="s", label="soft")

@@ -12,9 +12,11 @@ FULLEST = "cohesion_moment"  # the model that loses least; the report names what
 
 
 def of_case(experiment, case):
-    """Bonds between the disks of a soft Case in words, and what its model loses beside what cohesion_moment does: (text, list of texts).
+    """Bonds between the disks of a soft Case in words, and what its model loses beside what cohesion_moment does:
+    (text, list of texts).
 
-    ``experiment``: module or object with ``disks_of(case)``, see :mod:`outcomes`. Raises SoftError for a material that the model cannot have.
+    ``experiment``: module or object with ``disks_of(case)``, see :mod:`outcomes`. Raises SoftError for a material that
+    the model cannot have.
     """
     materials, diameter = experiment.disks_of(case)
     world = worlds.Soft(

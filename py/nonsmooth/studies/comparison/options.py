@@ -1,6 +1,8 @@
-"""What scripts/compare_hard_soft.py takes on its command line, what of it applies to which experiment, and the defaults.
+"""What scripts/compare_hard_soft.py takes on its command line, what of it applies to which experiment, and the
+defaults.
 
-Options that do not apply are refused before anything is computed, so their parsers leave None: what was given can be told from what was not.
+Options that do not apply are refused before anything is computed, so their parsers leave None: what was given can be
+told from what was not.
 """
 
 from __future__ import annotations

@@ -2,12 +2,15 @@
 
 An experiment is a module (:mod:`slopes`, :mod:`biaxials`) or an object (:mod:`collapses`) with
 
-* ``prepare(case)``, ``run(folder, **case)``, ``measure(case, folder, found)``: the disks, a run in a process of its own, and its :class:`Outcome`;
-* ``disks_of(case)``: section.Materials of its disks, a list, and their smallest and largest diameter [m]. Raises UserError for a case that cannot be;
+* ``prepare(case)``, ``run(folder, **case)``, ``measure(case, folder, found)``: the disks, a run in a process of its
+  own, and its :class:`Outcome`;
+* ``disks_of(case)``: section.Materials of its disks, a list, and their smallest and largest diameter [m]. Raises
+  UserError for a case that cannot be;
 * ``least_stiffness(case)``, if it has one: Young's modulus [Pa] below which its soft runs would refuse;
-* ``QUANTITIES``, ``KEYS``, ``CURVES``: what is compared; ``DEFAULT_STIFFNESSES``, ``ENSEMBLE_STIFFNESS`` [Pa], ``SOURCE``, ``DISKS``: defaults;
-* ``OVERLAP``: what its mean overlap is, a sentence; ``OVERLAP_WHEN``: when Outcome.overlap_rest and Outcome.overlap are taken; ``COST_WHEN``: what
-  part of the course Cost.rate is of.
+* ``QUANTITIES``, ``KEYS``, ``CURVES``: what is compared; ``DEFAULT_STIFFNESSES``, ``ENSEMBLE_STIFFNESS`` [Pa],
+  ``SOURCE``, ``DISKS``: defaults;
+* ``OVERLAP``: what its mean overlap is, a sentence; ``OVERLAP_WHEN``: when Outcome.overlap_rest and Outcome.overlap are
+  taken; ``COST_WHEN``: what part of the course Cost.rate is of.
 """
 
 from __future__ import annotations
@@ -32,7 +35,8 @@ class Quantity:
 
 @dataclass(frozen=True)
 class Cost:
-    """Of the steps alone, without records, in both worlds: ``steps``, ``step_s`` their length [s], ``wall_s`` [s], ``simulated_s`` [s].
+    """Of the steps alone, without records, in both worlds: ``steps``, ``step_s`` their length [s], ``wall_s`` [s],
+    ``simulated_s`` [s].
 
     ``rate``: wall time for a second of simulation while the mass moves (of the whole run where that is not told apart).
     """
@@ -48,10 +52,11 @@ class Cost:
 class Outcome:
     """One finished run.
 
-    ``values``: {name of a Quantity: number or None}; ``curves``: {name: array} over ``curves["abscissa"]``, which begins at the event that runs are
-    aligned by, all of one shape (n,); ``series``: the columns of series.csv, of shape (rows,); ``begin``, ``end``: (x, y, r) [m] of the disks then, of
-    shape (disks,), or None; ``forces``: {(disk, disk or wall): normal force} [N/m] of contacts under compression in the state of reference;
-    ``overlap``: mean overlap [mean diameters] while the mass moves, or at the end; ``overlap_rest``: in the state of reference.
+    ``values``: {name of a Quantity: number or None}; ``curves``: {name: array} over ``curves["abscissa"]``, which
+    begins at the event that runs are aligned by, all of one shape (n,); ``series``: the columns of series.csv, of shape
+    (rows,); ``begin``, ``end``: (x, y, r) [m] of the disks then, of shape (disks,), or None; ``forces``: {(disk, disk
+    or wall): normal force} [N/m] of contacts under compression in the state of reference; ``overlap``: mean overlap
+    [mean diameters] while the mass moves, or at the end; ``overlap_rest``: in the state of reference.
     """
 
     case: Case

@@ -1,18 +1,21 @@
 """Errors of runs against a reference, the scatter of chaotic motion, work against precision, and rates of convergence.
 
-**Error.** Two runs differ by what a reader of their results would see; each part is relative, so that a number says the same of all:
+**Error.** Two runs differ by what a reader of their results would see; each part is relative, so that a number says the
+same of all:
 
-* front and centre of mass: root mean square over time of the difference of their ways, from the moment that the mass begins to move and until both
-  rest, in units of the reference's largest way (for other experiments: their curves over their abscissa);
+* front and centre of mass: root mean square over time of the difference of their ways, from the moment that the mass
+  begins to move and until both rest, in units of the reference's largest way (for other experiments: their curves over
+  their abscissa);
 * deposit: 1 minus the area that both cover over the area that either covers;
 * key quantities of the scenario, such as the water table at failure: the difference over the reference's value.
 
-The error is the root mean square of these parts. **Scatter** is the median of the same error over all pairs of seeds of one world with the same numerics: a
-difference below it may be chance. An avalanche is chaotic, so errors of one world's own runs against each other do not fall to zero with the step, but to
-what a small disturbance does.
+The error is the root mean square of these parts. **Scatter** is the median of the same error over all pairs of seeds of
+one world with the same numerics: a difference below it may be chance. An avalanche is chaotic, so errors of one world's
+own runs against each other do not fall to zero with the step, but to what a small disturbance does.
 
-**Work.** The cost to an accuracy e is the smallest wall time of the runs of a world whose error is at most e. Two worlds are compared at the
-smallest error that both reach, but not below the scatter, where a smaller error says nothing.
+**Work.** The cost to an accuracy e is the smallest wall time of the runs of a world whose error is at most e. Two
+worlds are compared at the smallest error that both reach, but not below the scatter, where a smaller error says
+nothing.
 """
 
 from __future__ import annotations
@@ -45,8 +48,8 @@ POINTS = 400  # of the abscissa on which curves are compared
 def curve_difference(abscissa, values, reference_abscissa, reference):
     """Root mean square difference of two curves over the reference's largest value; NaN where that is 0.
 
-    ``abscissa``, ``values``: of shape (n,), ascending; ``reference_abscissa``, ``reference``: of shape (m,), in the same units. Both begin at abscissa 0,
-    and a curve that has ended keeps its last value.
+    ``abscissa``, ``values``: of shape (n,), ascending; ``reference_abscissa``, ``reference``: of shape (m,), in the
+    same units. Both begin at abscissa 0, and a curve that has ended keeps its last value.
     """
     end = max(abscissa[-1], reference_abscissa[-1])
     if end <= 0:
@@ -58,7 +61,8 @@ def curve_difference(abscissa, values, reference_abscissa, reference):
 
 
 def parts(one, reference, key_quantities=()):
-    """The parts of the error of an Outcome against another: {name: number}, relative; those that cannot be told are left out.
+    """The parts of the error of an Outcome against another: {name: number}, relative; those that cannot be told are
+    left out.
 
     ``key_quantities``: names of Outcome.values that count as well.
     """
@@ -84,13 +88,16 @@ def error(one, reference, key_quantities=()):
 
 
 def scatter(outcomes, key_quantities=()):
-    """Median of the errors of all pairs of ``outcomes``, a list of Outcome (both ways round); NaN for fewer than two."""
+    """Median of the errors of all pairs of ``outcomes``, a list of Outcome (both ways round); NaN for fewer than
+    two.
+    """
     found = [error(a, b, key_quantities) for a, b in itertools.permutations(outcomes, 2)]
     return float(np.median(found)) if found else math.nan
 
 
 def force_difference(one, reference):
-    """Of normal forces [N/m] at the same contacts, both {pair: force}: root mean square difference over the reference's mean, and the coefficient of correlation.
+    """Of normal forces [N/m] at the same contacts, both {pair: force}: root mean square difference over the reference's
+    mean, and the coefficient of correlation.
 
     Contacts that only one of them has count with a zero in the other. NaN, NaN for fewer than three contacts.
     """
@@ -107,7 +114,9 @@ def force_difference(one, reference):
 
 @dataclass(frozen=True)
 class ConvergenceFit:
-    """y = ``scale`` x^``power``; ``power_error``: standard error, NaN for two points; ``points``: how many there were."""
+    """y = ``scale`` x^``power``; ``power_error``: standard error, NaN for two points; ``points``: how many there
+    were.
+    """
 
     power: float
     scale: float
@@ -119,7 +128,8 @@ class ConvergenceFit:
 
 
 def power_law(x, y):
-    """:class:`ConvergenceFit` to ``x``, ``y``, both of shape (n,), by least squares of the logarithms; values that are not positive are left out.
+    """:class:`ConvergenceFit` to ``x``, ``y``, both of shape (n,), by least squares of the logarithms; values that are
+    not positive are left out.
 
     None where fewer than two points of different x are left.
     """
@@ -137,7 +147,8 @@ def power_law(x, y):
 
 
 def loglog(at, x, y):
-    """y at ``at``, straight lines between the logarithms; and whether that lies outside the points, along the last line there.
+    """y at ``at``, straight lines between the logarithms; and whether that lies outside the points, along the last line
+    there.
 
     ``at``: a number; ``x``, ``y``: of shape (n,), positive, two points of different x or more, else (NaN, True).
     """
@@ -154,11 +165,12 @@ def loglog(at, x, y):
 
 
 def soft_rate(modulus, moduli, steps, walls):
-    """Wall time [s] for a second of simulation on soft contacts of a Young's modulus [Pa], and whether that lies outside those that were run.
+    """Wall time [s] for a second of simulation on soft contacts of a Young's modulus [Pa], and whether that lies
+    outside those that were run.
 
-    ``moduli`` [Pa], ``steps`` [s], ``walls`` [s]: of the runs their moduli, time steps and wall times a step, each of shape (n,). The step goes with the
-    stability limit, as the inverse root of the modulus; what a step takes depends on the modulus through the number of contacts only, so beyond the runs
-    it is that of the nearest.
+    ``moduli`` [Pa], ``steps`` [s], ``walls`` [s]: of the runs their moduli, time steps and wall times a step, each of
+    shape (n,). The step goes with the stability limit, as the inverse root of the modulus; what a step takes depends on
+    the modulus through the number of contacts only, so beyond the runs it is that of the nearest.
     """
     order = np.argsort(moduli)
     moduli, steps, walls = (np.asarray(v, float)[order] for v in (moduli, steps, walls))
@@ -175,7 +187,8 @@ def soft_rate(modulus, moduli, steps, walls):
 class Work:
     """Two worlds at one accuracy.
 
-    ``error`` compared at; ``hard``, ``soft``: indices of the cheapest runs that reach it; ``factor``: soft over hard in wall time.
+    ``error`` compared at; ``hard``, ``soft``: indices of the cheapest runs that reach it; ``factor``: soft over hard in
+    wall time.
 
     ``at_scatter``: whether the accuracy is the scatter, below which nothing can be told.
     """
@@ -188,7 +201,9 @@ class Work:
 
 
 def compare_work(hard, soft, floor=0.0):
-    """:class:`Work` of two lists of (wall time [s], error), ``floor``: the scatter (NaN: none); None where a world has no run that counts."""
+    """:class:`Work` of two lists of (wall time [s], error), ``floor``: the scatter (NaN: none); None where a world has
+    no run that counts.
+    """
     hard, soft = ([(float(w), float(e)) for w, e in points] for points in (hard, soft))
     known = [[e for w, e in points if math.isfinite(e) and w > 0] for points in (hard, soft)]
     if not all(known):

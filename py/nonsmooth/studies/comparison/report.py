@@ -20,7 +20,9 @@ SHOWN = ("error", "overlap", "front_travel_m")  # of the convergence, in the fig
 
 @dataclass
 class ReportSection:
-    """A part of the page: ``text`` (sentences), ``plots`` [(path of a PNG, caption)], ``tables`` [(caption, heads, rows)]."""
+    """A part of the page: ``text`` (sentences), ``plots`` [(path of a PNG, caption)], ``tables`` [(caption, heads,
+    rows)].
+    """
 
     title: str
     text: list = field(default_factory=list)
@@ -31,7 +33,8 @@ class ReportSection:
 def write(path, title, lead, questions, sections, machine):
     """Writes the page.
 
-    ``lead``: sentences on what was compared; ``questions``: [(question, verdict, sentences)]; ``machine``: as benchmark.machine.describe tells.
+    ``lead``: sentences on what was compared; ``questions``: [(question, verdict, sentences)]; ``machine``: as
+    benchmark.machine.describe tells.
     """
     # from the working folder, and not from the page's
     found = [replace(s, plots=[(Path(plot).absolute(), caption) for plot, caption in s.plots]) for s in sections]
@@ -52,7 +55,9 @@ def _percent(value):
 
 
 def common_sections(out, scenario, plan, outcomes, summary):
-    """Sections that every scenario has: quantities, cost, work and precision, convergence, runs. Figures go to ``out/figures``."""
+    """Sections that every scenario has: quantities, cost, work and precision, convergence, runs. Figures go to
+    ``out/figures``.
+    """
     folder = Path(out) / "figures"
     return [
         _quantities(summary),

@@ -1,4 +1,6 @@
-"""The runs of a comparison below its folder, each in a process of its own; see :mod:`yade.nonsmooth.running.side_by_side`."""
+"""The runs of a comparison below its folder, each in a process of its own; see
+:mod:`yade.nonsmooth.running.side_by_side`.
+"""
 
 from __future__ import annotations
 
@@ -18,10 +20,12 @@ def folder_of(case, out) -> Path:
 
 
 def run(function, cases, out, threads, resume=False, progress=lambda share, doing: None):
-    """Calls ``function(folder, **case)`` for every case; returns what each returned, in their order, with ``process_wall_s``: wall time of its process [s].
+    """Calls ``function(folder, **case)`` for every case; returns what each returned, in their order, with
+    ``process_wall_s``: wall time of its process [s].
 
-    ``function``: of a module of this package, see processes.call. ``resume``: keep what has finished. ``progress``: called with the share done and what is
-    being done. Raises ComparisonError with the first failure after all others have ended.
+    ``function``: of a module of this package, see processes.call. ``resume``: keep what has finished. ``progress``:
+    called with the share done and what is being done. Raises ComparisonError with the first failure after all others
+    have ended.
     """
     name = processes.named(function)
     made = [

@@ -1,4 +1,6 @@
-"""The slope experiment in both worlds: one course (:mod:`yade.nonsmooth.experiment`), one set of rules (:mod:`yade.nonsmooth.measure.characteristic_times`)."""
+"""The slope experiment in both worlds: one course (:mod:`yade.nonsmooth.experiment`), one set of rules
+(:mod:`yade.nonsmooth.measure.characteristic_times`).
+"""
 
 from __future__ import annotations
 
@@ -18,10 +20,13 @@ from .outcomes import Cost, Outcome, Quantity
 
 __all__ = ["DEFAULT_STIFFNESSES", "QUANTITIES", "disks_of", "forces_of", "measure", "prepare", "run", "section_of"]
 
-#: Young's moduli [Pa], to a rock's. Under the slope's stress of some MPa contacts overlap by about 10 % of the radius at the softest.
+#: Young's moduli [Pa], to a rock's. Under the slope's stress of some MPa contacts overlap by about 10 % of the radius
+#: at the softest.
 DEFAULT_STIFFNESSES = (1e7, 1e8, 1e9, 1e10)
 BONDS = True  # the kind of bonds matters
-ENSEMBLE_STIFFNESS = 1e9  # Pa, for all seeds: the softest of these decades with which the dry slope stands; with 1e8 its elastic strain breaks most bonds
+# Pa, for all seeds: the softest of these decades with which the dry slope stands; with 1e8 its elastic strain breaks
+# most bonds
+ENSEMBLE_STIFFNESS = 1e9
 
 QUANTITIES = (
     Quantity("water_at_failure_m", "water table at failure (t1)", "m"),
@@ -68,20 +73,26 @@ def section_of(case: Case):
 
 
 def disks_of(case: Case):
-    """Materials of the disks, and their smallest and largest diameter [m]. Raises SectionError for a section that cannot be used."""
+    """Materials of the disks, and their smallest and largest diameter [m]. Raises SectionError for a section that
+    cannot be used.
+    """
     s = section_of(case)
     return [s.materials[layer.material] for layer in s.layers], (s.disks.d_min, s.disks.d_max)
 
 
 def prepare(case: Case):
-    """Makes the packing of a case, unless it is in the cache; one that is pressed is made in the running scene, which it empties."""
+    """Makes the packing of a case, unless it is in the cache; one that is pressed is made in the running scene, which
+    it empties.
+    """
     from ..slope import slope_packing
 
     slope_packing.of(section_of(case))
 
 
 def run(folder, **plain):
-    """Runs a case in the (empty) scene, its records below ``folder``; returns its course.State and counts as a dictionary."""
+    """Runs a case in the (empty) scene, its records below ``folder``; returns its course.State and counts as a
+    dictionary.
+    """
     from yade import O
 
     from ...world import worlds
@@ -118,7 +129,9 @@ def run(folder, **plain):
 
 
 def measure(case: Case, folder, found) -> Outcome:
-    """What the records of a finished run say; ``found``: what :func:`run` returned. Runs are aligned by when the slope begins to move."""
+    """What the records of a finished run say; ``found``: what :func:`run` returned. Runs are aligned by when the slope
+    begins to move.
+    """
     s, state = section_of(case), found["state"]
     if "simulated_s" not in found:  # as of versions whose steps were all as long
         raise ComparisonError(

@@ -31,9 +31,10 @@ def clean(value):
 def estimate(hard, soft):
     """Means, standard deviations over seeds, and the paired difference of a quantity.
 
-    ``hard``, ``soft``: values (or None) of the same seeds in the same order. ``scatter`` of the result: standard deviation over seeds (root mean square of both
-    worlds'). ``agree``: True where the whole 95 % interval of the difference lies within the scatter, so that they differ by no more than two packings
-    do; False where it does not and leaves zero out; None where so few seeds, or one alone, cannot tell.
+    ``hard``, ``soft``: values (or None) of the same seeds in the same order. ``scatter`` of the result: standard
+    deviation over seeds (root mean square of both worlds'). ``agree``: True where the whole 95 % interval of the
+    difference lies within the scatter, so that they differ by no more than two packings do; False where it does not and
+    leaves zero out; None where so few seeds, or one alone, cannot tell.
     """
     number = lambda values: [v for v in values if v is not None]  # noqa: E731
     pairs = [(a, b) for a, b in zip(hard, soft) if a is not None and b is not None]
@@ -65,7 +66,9 @@ def _agree(difference, scatter):
 
 
 def stiffest_within(differences, scatter):
-    """Whether the last of ``differences``, that of the stiffest run, is no larger than ``scatter``; None where either is not known (NaN)."""
+    """Whether the last of ``differences``, that of the stiffest run, is no larger than ``scatter``; None where either
+    is not known (NaN).
+    """
     last = differences[-1]
     return last <= scatter if math.isfinite(last) and math.isfinite(scatter) else None
 
@@ -93,7 +96,8 @@ def _run(outcome, error, own):
 def summarise(scenario, plan, outcomes):
     """The summary as a dictionary.
 
-    ``scenario``: an experiment, see :mod:`outcomes`; ``plan``: a cases.ComparisonPlan; ``outcomes``: {Case: Outcome} of all its cases.
+    ``scenario``: an experiment, see :mod:`outcomes`; ``plan``: a cases.ComparisonPlan; ``outcomes``: {Case: Outcome} of
+    all its cases.
     """
     keys = scenario.KEYS
     pairs = [(outcomes[h], outcomes[s]) for h, s in plan.ensemble]
@@ -156,7 +160,9 @@ def summarise(scenario, plan, outcomes):
 
 
 def _cost(hard, sweep):
-    """Wall time for a second of simulation (see Cost.rate), soft over hard: at equal mean overlap (Outcome.overlap), and at a rock's stiffness."""
+    """Wall time for a second of simulation (see Cost.rate), soft over hard: at equal mean overlap (Outcome.overlap),
+    and at a rock's stiffness.
+    """
     moduli, overlaps, steps, walls = (
         [f(o) for o in sweep]
         for f in (
@@ -227,7 +233,9 @@ def _work(numerics, sweep, aside, chance, keys):
 
 
 def _convergence(scenario, plan, outcomes, quantities, chance):
-    """Differences of soft runs from the hard run of the same packing, against stiffness, with the power of the stiffness that fits them best."""
+    """Differences of soft runs from the hard run of the same packing, against stiffness, with the power of the
+    stiffness that fits them best.
+    """
     reference = outcomes[plan.ensemble[0][0]]
     sweep = [outcomes[c] for c in plan.sweep]
     moduli = [o.case.stiffness for o in sweep]

@@ -1,4 +1,6 @@
-"""Disks at rest in the box on the floor, with hard contacts; made once and kept, so that both worlds begin with the same places."""
+"""Disks at rest in the box on the floor, with hard contacts; made once and kept, so that both worlds begin with the
+same places.
+"""
 
 from __future__ import annotations
 
@@ -32,7 +34,8 @@ ROUGH_REACH, FLOOR_REACH = (6.0, 15.0)
 
 @dataclass(frozen=True, eq=False)
 class Prepared:
-    """Disks at rest in the box: centres ``x``, ``y`` and radii ``r`` [m], arrays of length n; ``width`` L₀ of the box and ``height`` H₀ of the disks [m].
+    """Disks at rest in the box: centres ``x``, ``y`` and radii ``r`` [m], arrays of length n; ``width`` L₀ of the box
+    and ``height`` H₀ of the disks [m].
 
     H₀ is twice the height of the centre of mass over the floor, which is that of the surface of a level column.
     """
@@ -46,7 +49,9 @@ class Prepared:
 
 @dataclass(frozen=True, eq=False)
 class Stand:
-    """Bodies of a scene: ids of ``disks`` (consecutive), ``base`` (glued disks), ``walls``, and ``gates`` (sides that can be taken away)."""
+    """Bodies of a scene: ids of ``disks`` (consecutive), ``base`` (glued disks), ``walls``, and ``gates`` (sides that
+    can be taken away).
+    """
 
     disks: list
     base: list
@@ -64,8 +69,8 @@ def cache_path(heap):
 def prepared(heap):
     """The heap's disks at rest, from the cache or made in the running scene, which is emptied.
 
-    They are packed just short of touching (or taken from the file) and settle between walls without friction. Raises PackingError, SampleError or
-    HeapError where that cannot be done.
+    They are packed just short of touching (or taken from the file) and settle between walls without friction. Raises
+    PackingError, SampleError or HeapError where that cannot be done.
     """
     kept, (width, _) = CACHE.of(cache_path(heap), lambda: _settle(heap)), heap.box()
     area = kept.r**2
@@ -112,7 +117,8 @@ def _packed(section):
 
 
 def put(heap, world, x, y, r, still=False):
-    """Fills the scene anew with walls, floor and disks in a world, and sets engines and step; returns the :class:`Stand`.
+    """Fills the scene anew with walls, floor and disks in a world, and sets engines and step; returns the
+    :class:`Stand`.
 
     ``still``: without restitution, and without friction at the walls.
     """

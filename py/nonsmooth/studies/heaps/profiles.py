@@ -85,7 +85,9 @@ def of_run(seen, r, gravity):
 
 
 def slowest(gravity, diameter):
-    """The speed [m/s] that something in a profile is above where it moves; ``gravity`` [m/s²], mean ``diameter`` [m]."""
+    """The speed [m/s] that something in a profile is above where it moves; ``gravity`` [m/s²], mean ``diameter``
+    [m].
+    """
     return LEAST * math.sqrt(gravity * diameter)
 
 

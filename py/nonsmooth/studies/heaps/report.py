@@ -1,4 +1,6 @@
-"""What a study of columns or piles says: fitted exponents beside the published ones, as a dictionary, a table and figures."""
+"""What a study of columns or piles says: fitted exponents beside the published ones, as a dictionary, a table and
+figures.
+"""
 
 from __future__ import annotations
 
@@ -51,11 +53,12 @@ def _fits(found):
 
 
 def summarise(found):
-    """``summary.json`` of {name: summary of a run}: the runs, each with the ``disks`` that it has, ``disks_fewest`` of all of them, and ``fits`` of runout
-    and height below and above the aspect ratios :data:`CHANGES`.
+    """``summary.json`` of {name: summary of a run}: the runs, each with the ``disks`` that it has, ``disks_fewest`` of
+    all of them, and ``fits`` of runout and height below and above the aspect ratios :data:`CHANGES`.
 
-    A fit has ``factor``, ``exponent`` with half of its 95 % interval, the numbers of ``points``, and ``published`` with ``off_rel``, the exponent's relative
-    difference from each published one. Runs that did not come to rest are left out.
+    A fit has ``factor``, ``exponent`` with half of its 95 % interval, the numbers of ``points``, and ``published`` with
+    ``off_rel``, the exponent's relative difference from each published one. Runs that did not come to rest are left
+    out.
     """
     fits = {}
     for name, pair in _fits(found).items():
@@ -97,9 +100,11 @@ def counts(found):
 
 
 def by_front(found, folders):
-    """Exponents of the runout for other fronts, a list of dictionaries with ``front`` in words, ``below`` and ``above`` (None where there is no fit).
+    """Exponents of the runout for other fronts, a list of dictionaries with ``front`` in words, ``below`` and ``above``
+    (None where there is no fit).
 
-    ``folders``: {name: folder of the run}. Fronts: the connected mass over other gaps than :data:`measures.TOUCH`, and the x that holds a share of the disks' area.
+    ``folders``: {name: folder of the run}. Fronts: the connected mass over other gaps than :data:`measures.TOUCH`, and
+    the x that holds a share of the disks' area.
     """
     a, rows = [], []
     for name, run in found.items():
@@ -138,9 +143,11 @@ def _by_aspect(cases):
 
 
 def profiles_by_aspect(cases, found, folders):
-    """Profiles of speed of columns that came to rest (profiles.over_runs), a list of dictionaries with ``aspect``, that of the box, ``seeds``, how many, and ``rows``.
+    """Profiles of speed of columns that came to rest (profiles.over_runs), a list of dictionaries with ``aspect``, that
+    of the box, ``seeds``, how many, and ``rows``.
 
-    ``cases``: {name: (heap, world)}; ``found``: {name: summary of a run}; ``folders``: {name: its folder}. Raises HeapError where a run kept no places.
+    ``cases``: {name: (heap, world)}; ``found``: {name: summary of a run}; ``folders``: {name: its folder}. Raises
+    HeapError where a run kept no places.
     """
     made = []
     for aspect, names in _by_aspect(cases).items():
@@ -151,7 +158,9 @@ def profiles_by_aspect(cases, found, folders):
 
 
 def profiles_table(by_aspect):
-    """[caption, heads, rows] of texts: the regimes of what :func:`profiles_by_aspect` returned, with the share of the height that rests, by time and place."""
+    """[caption, heads, rows] of texts: the regimes of what :func:`profiles_by_aspect` returned, with the share of the
+    height that rests, by time and place.
+    """
     rows = []
     for one in by_aspect:
         for row in one["rows"]:
@@ -181,7 +190,9 @@ def profiles_table(by_aspect):
 
 
 def draw_profiles(by_aspect, cases, found, folders, path=None):
-    """The figure of what :func:`profiles_by_aspect` returned, with the same arguments: the matplotlib Figure, or the ``path`` that it is written to."""
+    """The figure of what :func:`profiles_by_aspect` returned, with the same arguments: the matplotlib Figure, or the
+    ``path`` that it is written to.
+    """
     drawn = []
     for one in by_aspect:
         name = next(name for name in _by_aspect(cases)[one["aspect"]] if found[name]["rested"])
@@ -244,13 +255,17 @@ def _gates(heap):
 
 
 def draw_collapse(heap, run, folder, path=None):
-    """The collapse of a run, from its ``folder`` and its summary ``run``: the matplotlib Figure, or the ``path`` that it is written to."""
+    """The collapse of a run, from its ``folder`` and its summary ``run``: the matplotlib Figure, or the ``path`` that
+    it is written to.
+    """
     times, places, r = study.frames(folder)
     return figures.collapse(times, places, r, run["fall_time_s"], path, width=run["width_m"], gate=_gates(heap))
 
 
 def film_collapse(heap, run, folder):
-    """``collapse.mp4`` of a run in its folder; returns the path, None where a run of an earlier version has kept no frames. Raises RecordsError where ffmpeg is missing."""
+    """``collapse.mp4`` of a run in its folder; returns the path, None where a run of an earlier version has kept no
+    frames. Raises RecordsError where ffmpeg is missing.
+    """
     folder = Path(folder)
     times, places, r = study.film(folder)
     return (

@@ -1,6 +1,7 @@
 """Laboratory tests of granular rock: biaxial compression, sliding on a wall, envelopes, calibration.
 
-Strength of a slope comes from tests of a sample of its rock (Taboada and Estrada 2009, sections 3.2.1, 3.3 and 5.2, Figures 9 to 11, Table 1).
+Strength of a slope comes from tests of a sample of its rock (Taboada and Estrada 2009, sections 3.2.1, 3.3 and 5.2,
+Figures 9 to 11, Table 1).
 
 * :mod:`pressing`: dense packings, pressed once and kept;
 * :mod:`walls`: the four walls around a sample;
@@ -14,7 +15,8 @@ Strength of a slope comes from tests of a sample of its rock (Taboada and Estrad
 * :mod:`rock_table`: rocks of given strengths;
 * :mod:`calibration`: contact parameters for wanted strengths.
 
-What is measured in a test stands in :mod:`yade.nonsmooth.measure`: strength, bands, fluctuations, cycles; materials in the model.
+What is measured in a test stands in :mod:`yade.nonsmooth.measure`: strength, bands, fluctuations, cycles; materials in
+the model.
 """
 
 from ...model import materials

@@ -1,17 +1,20 @@
 """Contact parameters for a rock of which only macroscopic strengths are known.
 
-Unknown: σ_ext, μ_s, and where residual strengths are wanted too, μ_r and σ_res. Measured by biaxial tests of samples that stay the same from one trial to
-the next, so that differences are those of the material: c, φ at the peak, and c_res, φ_res on the plateau. By dimensional analysis c is
-proportional to σ_ext as long as σ₃/σ_ext is kept, and φ hardly depends on it; so logarithms of the parameters are used, with a Jacobian that begins
-as this guess and learns from every trial (Broyden's update). `scipy.optimize.least_squares` chooses the trials. Samples are coarse first; fine
-ones then correct what the size of the sample does, unless the search is a quick one. The first trial is what the table of calibrated rocks (:mod:`..rocks`) says, where it holds.
+Unknown: σ_ext, μ_s, and where residual strengths are wanted too, μ_r and σ_res. Measured by biaxial tests of samples
+that stay the same from one trial to the next, so that differences are those of the material: c, φ at the peak, and
+c_res, φ_res on the plateau. By dimensional analysis c is proportional to σ_ext as long as σ₃/σ_ext is kept, and φ
+hardly depends on it; so logarithms of the parameters are used, with a Jacobian that begins as this guess and learns
+from every trial (Broyden's update). `scipy.optimize.least_squares` chooses the trials. Samples are coarse first; fine
+ones then correct what the size of the sample does, unless the search is a quick one. The first trial is what the table
+of calibrated rocks (:mod:`..rocks`) says, where it holds.
 
-How long a search takes is said before it starts: a test costs so many disks times steps, and a short test of a small sample measures what one disk and step take on
-this machine.
+How long a search takes is said before it starts: a test costs so many disks times steps, and a short test of a small
+sample measures what one disk and step take on this machine.
 
-How unique the answer is, trials say that are made for it: coarse samples, one parameter changed at a time. With J the derivatives of the strengths, each in
-units of what it may miss, by the logarithms of the parameters, a parameter is known to the relative error √((JᵀJ)⁻¹)ₖₖ if each strength is known to one
-such unit; the right singular vector of the smallest singular value is the change that the strengths tell least about.
+How unique the answer is, trials say that are made for it: coarse samples, one parameter changed at a time. With J the
+derivatives of the strengths, each in units of what it may miss, by the logarithms of the parameters, a parameter is
+known to the relative error √((JᵀJ)⁻¹)ₖₖ if each strength is known to one such unit; the right singular vector of the
+smallest singular value is the change that the strengths tell least about.
 """
 
 from __future__ import annotations
@@ -47,7 +50,8 @@ __all__ = [
     "uniqueness",
 ]
 
-# σ₃ over the wanted cohesion. Under three times the cohesion, 3 % of σ₁ (what samples of 5,000 disks differ by) are 15 % of c; under half of it, 5 %.
+# σ₃ over the wanted cohesion. Under three times the cohesion, 3 % of σ₁ (what samples of 5,000 disks differ by) are 15
+# % of c; under half of it, 5 %.
 PRESSURES = (0.5, 3.0, 12.0, 48.0)
 PEAK_STRAIN = 0.03  # at the end of tests of which only the peak is wanted
 QUICK = 1000  # disks of the samples of a quick search; the peak of 2,000 is the same (biaxial_effects.py)
@@ -62,7 +66,8 @@ BOUNDS = {
     "rolling_friction": (0.005, 0.6),
     "residual_share": (0.01, 1.0),
 }
-# first derivatives by logarithms: of ln c, φ [°], ln c_res, φ_res [°]; those of friction measured on 5,000 disks with μ_s from 0.21 to 0.3
+# first derivatives by logarithms: of ln c, φ [°], ln c_res, φ_res [°]; those of friction measured on 5,000 disks with
+# μ_s from 0.21 to 0.3
 SLOPES = {
     "tensile_strength": (1.0, 0.0, 1.0, 0.0),
     "friction": (0.75, 17.0, 0.0, 12.0),
@@ -72,7 +77,9 @@ SLOPES = {
 SCALE = 0.02  # a misfit of 2 % counts as one
 DEGREES = 0.7  # of angles, about the same
 COARSE = 3.0  # what coarse samples may miss, in these units: fine ones differ from them by more
-DIGITS = 4  # of a trial's parameters: the last bits of exponentials and of linear algebra are a processor's own, and a test grows them
+# of a trial's parameters: the last bits of exponentials and of linear algebra are a processor's own, and a test grows
+# them
+DIGITS = 4
 PROBE = (
     0.3  # step (of logarithms) of the trials that measure derivatives: ten times the samples' scatter of some per cent
 )
@@ -97,11 +104,14 @@ class Wanted:
 
 
 class Calibration:
-    """Searches a material; every trial is kept in ``out/trials.json`` and not computed again by a resumed search, which also goes on with the tests of a broken one."""
+    """Searches a material; every trial is kept in ``out/trials.json`` and not computed again by a resumed search, which
+    also goes on with the tests of a broken one.
+    """
 
     def __init__(self, wanted, start, out, threads, say=print, resume=False, progress=lambda share, doing: None):
-        """``start``: section.Material whose other parameters are kept; ``say``: called with a line of text for every trial; ``progress``: now and then
-        with the share that is done of as many trials as there may be, and what is being done."""
+        """``start``: section.Material whose other parameters are kept; ``say``: called with a line of text for every
+        trial; ``progress``: now and then with the share that is done of as many trials as there may be, and what is
+        being done."""
         self.wanted, self.start, self.out, self.threads, self.say, self.resume, self.progress = (
             wanted,
             start,
@@ -140,7 +150,8 @@ class Calibration:
     def _first_jacobian(self):
         slopes = np.array([SLOPES[name] for name in self.names], float).T[: 4 if self.wanted.with_residual else 2]
         if self.wanted.with_residual:
-            # its misfit is not in parts of itself but of the peak cohesion; where none is wanted a little is left to begin with
+            # its misfit is not in parts of itself but of the peak cohesion; where none is wanted a little is left to
+            # begin with
             slopes[2] *= max(0.05, self.wanted.residual_cohesion / self.wanted.cohesion)
         return slopes
 
@@ -167,7 +178,9 @@ class Calibration:
 
     # ---- trials ---------------------------------------------------------------------------------
     def _kept(self):
-        """Trials of an earlier search, an empty list where there are none; CampaignError for a file that cannot be read."""
+        """Trials of an earlier search, an empty list where there are none; CampaignError for a file that cannot be
+        read.
+        """
         path = self.out / "trials.json"
         try:
             trials = json.loads(path.read_text())
@@ -182,7 +195,8 @@ class Calibration:
             ) from None
 
     def measure(self, x, disks, seeds):
-        """c [Pa], φ [°], and where they are wanted c_res, φ_res of the material at ``x``, an array, with samples of so many disks.
+        """c [Pa], φ [°], and where they are wanted c_res, φ_res of the material at ``x``, an array, with samples of so
+        many disks.
 
         Raises campaign.CampaignError and pressing.SampleError where a test fails.
         """
@@ -242,8 +256,9 @@ class Calibration:
 
     # ---- how long it takes ----------------------------------------------------------------------
     def timed(self):
-        """(seconds that a step takes for each disk of a test, seconds that a test takes besides), measured on this machine by short tests under the lowest and the
-        highest pressure, as many at a time as there are threads. Raises as :meth:`measure` does."""
+        """(seconds that a step takes for each disk of a test, seconds that a test takes besides), measured on this
+        machine by short tests under the lowest and the highest pressure, as many at a time as there are threads. Raises
+        as :meth:`measure` does."""
         disks, strain = TIMED
         tests = [
             biaxial_test.BiaxialTest(self.material(self.x0), p * self.wanted.cohesion, pressing.Shape(disks, 1), strain)
@@ -259,7 +274,9 @@ class Calibration:
         return steps / sum(m["steps"] * disks for m in measured), max(0.0, taken - steps / len(tests))
 
     def seconds(self, kinds, timed):
-        """Seconds that trials take: ``kinds``, a list of (number of trials, disks, seeds); ``timed``: as :meth:`timed` returns it."""
+        """Seconds that trials take: ``kinds``, a list of (number of trials, disks, seeds); ``timed``: as :meth:`timed`
+        returns it.
+        """
         each, start = timed
         steps = self._strain / (biaxial_test.BiaxialTest.inertia * biaxial_test.BiaxialTest.step)
         found = 0.0
@@ -285,7 +302,9 @@ class Calibration:
         )
 
     def misfits(self, found):
-        """What a trial misses, in units of SCALE and DEGREES, an array of two or four; ``found``: as :meth:`measure` returns it."""
+        """What a trial misses, in units of SCALE and DEGREES, an array of two or four; ``found``: as :meth:`measure`
+        returns it.
+        """
         w = self.wanted
         parts = [math.log(max(found[0], 1e-3 * w.cohesion) / w.cohesion) / SCALE, (found[1] - w.friction_deg) / DEGREES]
         if w.with_residual:
@@ -297,7 +316,8 @@ class Calibration:
         return np.array(parts)
 
     def search(self, disks, seeds, x, trials, enough=1.0):
-        """The best of at most ``trials`` trials from ``x`` with samples of one kind: (x, misfits); ends where no misfit exceeds ``enough``.
+        """The best of at most ``trials`` trials from ``x`` with samples of one kind: (x, misfits); ends where no misfit
+        exceeds ``enough``.
 
         ``x``: logarithms of the parameters, as :attr:`names` has them. Raises as :meth:`measure` does.
         """
@@ -330,7 +350,9 @@ class Calibration:
         return best[0], best[1]
 
     def derivatives(self, disks, seeds, x):
-        """Derivatives of the strengths, in units of SCALE and DEGREES, by the logarithms of the parameters at ``x``: shape (strengths, parameters), from trials."""
+        """Derivatives of the strengths, in units of SCALE and DEGREES, by the logarithms of the parameters at ``x``:
+        shape (strengths, parameters), from trials.
+        """
         here = self.misfits(self.measure(x, disks, seeds))
         high = np.log([BOUNDS[name][1] for name in self.names])
         columns = []
@@ -343,8 +365,9 @@ class Calibration:
         return np.column_stack(columns)
 
     def run(self, coarse, fine=None, trials=(5, 4)):
-        """Coarse search, trials for the derivatives there, then a fine search; ``coarse``, ``fine``: (disks, seeds). Without ``fine`` a quick search: the
-        coarse samples alone, without the derivatives. Returns the material and a report, a dictionary. Says first how long it takes. Raises as :meth:`measure` does.
+        """Coarse search, trials for the derivatives there, then a fine search; ``coarse``, ``fine``: (disks, seeds).
+        Without ``fine`` a quick search: the coarse samples alone, without the derivatives. Returns the material and a
+        report, a dictionary. Says first how long it takes. Raises as :meth:`measure` does.
         """
         quick = fine is None
         self._say_how_long(coarse, fine, trials)
@@ -381,10 +404,11 @@ class Calibration:
 
 
 def uncertainty(disks, seeds):
-    """How far peak strengths that samples of so many ``disks`` have, one for each of the ``seeds``, may be from the mean of all such samples: half of the 95 % intervals, a dictionary
-    with ``cohesion_rel`` and ``friction_deg``.
+    """How far peak strengths that samples of so many ``disks`` have, one for each of the ``seeds``, may be from the
+    mean of all such samples: half of the 95 % intervals, a dictionary with ``cohesion_rel`` and ``friction_deg``.
 
-    Samples scatter as those of the table of rocks do, less or more by the root of the number of disks; with it the table's give what the samples of Table 1 have.
+    Samples scatter as those of the table of rocks do, less or more by the root of the number of disks; with it the
+    table's give what the samples of Table 1 have.
     """
     known = rocks.table()["scatter"]
     factor = math.sqrt(known["disks"] / disks / len(seeds))
@@ -403,7 +427,9 @@ def lasting(seconds):
 
 
 def uniqueness(names, derivatives):
-    """What strengths tell about parameters, a dictionary, from :meth:`Calibration.derivatives` (shape (strengths, parameters), as many of either)."""
+    """What strengths tell about parameters, a dictionary, from :meth:`Calibration.derivatives` (shape (strengths,
+    parameters), as many of either).
+    """
     _, singular, directions = np.linalg.svd(derivatives)
     errors = np.sqrt(np.diag(np.linalg.pinv(derivatives.T @ derivatives)))
     return {

@@ -33,7 +33,8 @@ __all__ = [
     "summarise",
 ]
 
-# snapshots (strain in per cent) in which bands are measured: as in the paper's Figure 9, and where its tests are on their plateau
+# snapshots (strain in per cent) in which bands are measured: as in the paper's Figure 9, and where its tests are on
+# their plateau
 BANDS_AT = {"bands": "1", "bands_late": "4"}
 #: Numbers of a test's course, as biaxial.run returns them.
 OF_COURSE = (
@@ -57,11 +58,12 @@ def name_of_result(measured):
 
 
 def run(tests, out, threads, resume=False, progress=lambda share, doing: None):
-    """Runs biaxial Tests, as many at a time as ``threads``, each in ``out/tests/NAME``; returns what :func:`measure` says of each.
+    """Runs biaxial Tests, as many at a time as ``threads``, each in ``out/tests/NAME``; returns what :func:`measure`
+    says of each.
 
-    ``resume``: keep tests that ended, and go on with others from their checkpoints. ``progress``: called with the share done and what is being done, now and then.
-    Raises CampaignError or SampleError before anything runs where tests cannot be run or measured; CampaignError with the first failure after the
-    others have ended.
+    ``resume``: keep tests that ended, and go on with others from their checkpoints. ``progress``: called with the share
+    done and what is being done, now and then. Raises CampaignError or SampleError before anything runs where tests
+    cannot be run or measured; CampaignError with the first failure after the others have ended.
     """
     checks.path("out", out, CampaignError, "give the path of a folder for the tests")
     threads = checks.count("threads", threads, CampaignError, "give a whole number from 1, how many run at a time")
@@ -154,7 +156,9 @@ def _disk_area(folder):
 
 
 def bands_of(folder, snapshot):
-    """Shear bands of a test in a snapshot, by name, or at its end where it ended before; a list of two dictionaries, None where there is none (see :func:`bands.find`)."""
+    """Shear bands of a test in a snapshot, by name, or at its end where it ended before; a list of two dictionaries,
+    None where there is none (see :func:`bands.find`).
+    """
     begin = records.read_snapshot(folder / "snapshots" / "begin.npz")
     path = folder / "snapshots" / f"{snapshot}.npz"
     s = records.read_snapshot(path if path.exists() else folder / "snapshots" / "end.npz")
@@ -197,7 +201,9 @@ def _numbers_of(t):
 
 
 def conjugate_bands(found):
-    """Number of conjugate bands among those of :func:`bands_of`: 2 where they lean to opposite sides, equally steep; else 1, the one that prevails, or 0 where there is none."""
+    """Number of conjugate bands among those of :func:`bands_of`: 2 where they lean to opposite sides, equally steep;
+    else 1, the one that prevails, or 0 where there is none.
+    """
     left, right = (band and band["angle_deg"] for band in found or (None, None))
     if None not in (left, right) and left * right < 0 and abs(left + right) <= bands.CONJUGATE:
         return 2
@@ -211,9 +217,10 @@ def _of_bands(found, name):
 
 
 def by_pressure(measured):
-    """Means over seeds of tests under the same pressure: dictionaries with ``confining_Pa`` and by name, see statistics.over_seeds: apparent angles of friction of peak and plateau [°],
-    the numbers of :data:`OF_TEST`, widths of bands at 1 % and at 4 % of strain, at 1 % too the
-    share of tests with two conjugate bands and that of disks that turn against them, and the shares of bonds by what broke them.
+    """Means over seeds of tests under the same pressure: dictionaries with ``confining_Pa`` and by name, see
+    statistics.over_seeds: apparent angles of friction of peak and plateau [°], the numbers of :data:`OF_TEST`, widths
+    of bands at 1 % and at 4 % of strain, at 1 % too the share of tests with two conjugate bands and that of disks that
+    turn against them, and the shares of bonds by what broke them.
     """
     found = {}
     for t in sorted(measured, key=lambda t: t["confining_Pa"]):
@@ -225,7 +232,8 @@ def by_pressure(measured):
 
 
 def summarise(material, measured, wall_s=None, threads=None):
-    """``summary.json``: per test, and per material with the mean and the 95 % confidence interval over seeds (null for one seed).
+    """``summary.json``: per test, and per material with the mean and the 95 % confidence interval over seeds (null for
+    one seed).
 
     Residual strengths are null where a plateau begins before :data:`strength.SOFTENED`.
     """

@@ -1,9 +1,9 @@
 """Sides of a sample as a flexible membrane: the pressure acts on the outermost disks.
 
-The outline of the disks is that of the Delaunay triangles of their centres whose circumscribed circle is below :data:`LARGEST_VOID` in
-radius (an alpha shape). Between two platens it has a left and a right chain of disks. A chain's edge of length L with the outward
-normal n carries −σ₃ L n, half on each of its disks; from a chain's ends the membrane goes straight to the platens. Horizontally the two sides
-then balance by construction.
+The outline of the disks is that of the Delaunay triangles of their centres whose circumscribed circle is below
+:data:`LARGEST_VOID` in radius (an alpha shape). Between two platens it has a left and a right chain of disks. A chain's
+edge of length L with the outward normal n carries −σ₃ L n, half on each of its disks; from a chain's ends the membrane
+goes straight to the platens. Horizontally the two sides then balance by construction.
 """
 
 from __future__ import annotations
@@ -23,7 +23,8 @@ class MembraneError(UserError, RuntimeError):
 
 
 def boundary(x, y, r):
-    """Indices of the disks along the outline, once around counterclockwise; ``x``, ``y``, ``r`` [m]: arrays of shape (n,).
+    """Indices of the disks along the outline, once around counterclockwise; ``x``, ``y``, ``r`` [m]: arrays of shape
+    (n,).
 
     Raises MembraneError where there is no outline, or none that closes.
     """
@@ -46,7 +47,8 @@ def boundary(x, y, r):
         after.setdefault(p, []).append(q)
     if not after:
         raise MembraneError("the sample has no outline; ask for more disks")
-    # at a disk where the outline touches itself, the rightmost turn stays outside; a disk that has come off belongs to no triangle
+    # at a disk where the outline touches itself, the rightmost turn stays outside; a disk that has come off belongs to
+    # no triangle
     start = min(after, key=lambda k: (x[k] - r[k], k))
     chain, before = [start], places[start] - np.array([0.0, -1.0])
     while True:
@@ -100,7 +102,8 @@ def sides(x, y, r, bottom, top):
 def forces(x, y, r, bottom, top, pressure):
     """Forces of the membrane [N/m], shape (n, 2), zero inside; and the area between the two chains [m²].
 
-    ``x``, ``y``, ``r`` [m]: shape (n,); ``bottom``, ``top``: heights of the platens [m]; ``pressure``: σ₃ [Pa]. Raises MembraneError, see :func:`sides`.
+    ``x``, ``y``, ``r`` [m]: shape (n,); ``bottom``, ``top``: heights of the platens [m]; ``pressure``: σ₃ [Pa]. Raises
+    MembraneError, see :func:`sides`.
     """
     total = np.zeros((len(x), 2))
     left, right = sides(x, y, r, bottom, top)

@@ -1,9 +1,11 @@
 """Samples as they are before a test: disks packed dense, and pressed on all sides until they carry.
 
-The sample is packed just short of touching, uniform by volume as the slope is (Taboada and Estrada 2009, sections 3.2.2 and 5.1). Then it is pressed between
-four smooth walls without gravity and without rolling resistance; without friction too, unless it is asked for, which gives the densest isotropic state
-that the packing allows, as the slope is pressed (:mod:`..slope_packing`). Where it is asked for the sample stays as it was packed. Rigid disks without cohesion know no stress of their own: under any pressure they come to rest in the same places. So a
-sample is pressed once, under a pressure whose value sets the unit of time only, and kept in the cache beside the packings.
+The sample is packed just short of touching, uniform by volume as the slope is (Taboada and Estrada 2009, sections 3.2.2
+and 5.1). Then it is pressed between four smooth walls without gravity and without rolling resistance; without friction
+too, unless it is asked for, which gives the densest isotropic state that the packing allows, as the slope is pressed
+(:mod:`..slope_packing`). Where it is asked for the sample stays as it was packed. Rigid disks without cohesion know no
+stress of their own: under any pressure they come to rest in the same places. So a sample is pressed once, under a
+pressure whose value sets the unit of time only, and kept in the cache beside the packings.
 
 Times are counted in t_i = √(m/p), with m the mean mass of a disk per metre and p the pressure.
 """
@@ -44,9 +46,11 @@ class SampleError(UserError, RuntimeError):
 
 @dataclass(frozen=True)
 class Shape:
-    """A sample: about ``count`` disks of ``d_min`` to ``d_max`` [m], packed to ``fraction``, ``aspect`` times as high as wide.
+    """A sample: about ``count`` disks of ``d_min`` to ``d_max`` [m], packed to ``fraction``, ``aspect`` times as high
+    as wide.
 
-    ``friction``: of the disks while they are pressed; None: not pressed at all, the disks stay as they were packed, just short of touching.
+    ``friction``: of the disks while they are pressed; None: not pressed at all, the disks stay as they were packed,
+    just short of touching.
     """
 
     count: int
@@ -79,7 +83,9 @@ class Shape:
 
 @dataclass(frozen=True, eq=False)
 class Pressed:
-    """Disks at rest: centres ``x``, ``y`` and radii ``r`` [m], arrays of length n, in a box of ``width`` and ``height`` [m] with its corner at the origin."""
+    """Disks at rest: centres ``x``, ``y`` and radii ``r`` [m], arrays of length n, in a box of ``width`` and ``height``
+    [m] with its corner at the origin.
+    """
 
     x: np.ndarray
     y: np.ndarray
@@ -111,8 +117,8 @@ def load(shape):
 
 
 def prepare(shape, folder):
-    """Makes the pressed sample of a shape in a process of its own, unless it is in the cache. ``folder``: of that process's files alone; it
-    is left only by a failure.
+    """Makes the pressed sample of a shape in a process of its own, unless it is in the cache. ``folder``: of that
+    process's files alone; it is left only by a failure.
 
     Raises processes.RunError where it fails.
     """

@@ -20,7 +20,9 @@ __all__ = ["BY_PRESSURE", "draw", "pressures", "table"]
 
 
 def _of_a_campaign(names):
-    """A decorator: the function asks for the ``summary`` of a campaign of one test or more, which has these names, words in a text."""
+    """A decorator: the function asks for the ``summary`` of a campaign of one test or more, which has these names,
+    words in a text.
+    """
     remedy = "give the summary of a campaign of biaxial tests, of one or more, as scripts/biaxial.py keeps it in summary.json"
     there, _ = checks.holds(names, remedy)
     return checks.takes(UserError, summary=(lambda v: there(v) and all(len(v[name]) for name in names.split()), remedy))

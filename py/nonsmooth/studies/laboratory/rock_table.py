@@ -1,8 +1,10 @@
-"""The table of calibrated rocks, ``sections/rocks.json``, from which a section takes contact parameters for a cohesion and an angle of friction; :mod:`..rocks` reads it.
+"""The table of calibrated rocks, ``sections/rocks.json``, from which a section takes contact parameters for a cohesion
+and an angle of friction; :mod:`..rocks` reads it.
 
-What is measured is (c/σ_ext, φ) against μ_s at fixed ratios of all other strengths. Rigid disks know no stress but σ_ext and σ₃, so that a rock whose strengths are all k
-times as large has, under k times the pressure, k times the stresses at the same strains (similarity): c is proportional to σ_ext, φ does not depend on it, and a
-table over μ_s alone is whole. All other contact parameters are those of the paper's rock.
+What is measured is (c/σ_ext, φ) against μ_s at fixed ratios of all other strengths. Rigid disks know no stress but
+σ_ext and σ₃, so that a rock whose strengths are all k times as large has, under k times the pressure, k times the
+stresses at the same strains (similarity): c is proportional to σ_ext, φ does not depend on it, and a table over μ_s
+alone is whole. All other contact parameters are those of the paper's rock.
 """
 
 from __future__ import annotations
@@ -63,7 +65,9 @@ CHECK_SEEDS = (21, 22, 23, 24)  # samples that the table does not know
 
 @dataclasses.dataclass(frozen=True)
 class Entry:
-    """A rock of the table or a variant of it: ``name`` for folders, what it is in words, its section.Material, how many disks its samples have, and how many samples at most."""
+    """A rock of the table or a variant of it: ``name`` for folders, what it is in words, its section.Material, how many
+    disks its samples have, and how many samples at most.
+    """
 
     name: str
     label: str
@@ -83,7 +87,9 @@ class Entry:
 
 
 def rock(friction, **changed):
-    """The paper's rock with another friction μ_s (and μ_r) of its contacts; ``changed``: other fields of the section.Material."""
+    """The paper's rock with another friction μ_s (and μ_r) of its contacts; ``changed``: other fields of the
+    section.Material.
+    """
     return dataclasses.replace(
         materials.load("wwr"), friction=friction, residual_friction=friction, **changed, envelope=None
     )
@@ -132,8 +138,9 @@ def run(out, wanted, seeds=SEEDS, threads=1, resume=False, progress=lambda share
 
 
 def row(entry, measured):
-    """What an Entry's tests say: friction of its contacts, ``cohesion_over_tensile_strength`` and ``friction_angle_deg`` over seeds (statistics.over_seeds), the former also ``cohesion_without_lowest`` pressure, and the
-    principal stresses of the peaks."""
+    """What an Entry's tests say: friction of its contacts, ``cohesion_over_tensile_strength`` and
+    ``friction_angle_deg`` over seeds (statistics.over_seeds), the former also ``cohesion_without_lowest`` pressure, and
+    the principal stresses of the peaks."""
     by_seed, unit = {}, entry.material.tensile_strength
     for m in measured:
         by_seed.setdefault(m["seed"], []).append(m)
@@ -178,8 +185,8 @@ def row(entry, measured):
 def table(found, others, command):
     """The table from what :func:`run` returned for :func:`entries` and :func:`variants`; ``command``: that makes it.
 
-    Samples are taken to scatter alike in all rocks: the mean variance over the rocks, of ln c and of φ, with the degrees of freedom of one rock, since
-    the seeds are the same in all.
+    Samples are taken to scatter alike in all rocks: the mean variance over the rocks, of ln c and of φ, with the
+    degrees of freedom of one rock, since the seeds are the same in all.
     """
     found = sorted(found, key=lambda row: row["friction"])
     seeds, fractions = found[0]["seeds"], [row["packing_fraction"] for row in found]
@@ -243,8 +250,9 @@ def table(found, others, command):
 
 
 def left_out(found):
-    """What the law misses where a rock between two others is left out, a list of dictionaries: the relative error of c/σ_ext at the μ_s that gives its φ, and that of φ at its μ_s. A gap between
-    rocks is then twice as wide, which makes it about four times as large as it is with the rock."""
+    """What the law misses where a rock between two others is left out, a list of dictionaries: the relative error of
+    c/σ_ext at the μ_s that gives its φ, and that of φ at its μ_s. A gap between rocks is then twice as wide, which
+    makes it about four times as large as it is with the rock."""
     angle, mu, share = (
         np.array(values)
         for values in (
@@ -305,8 +313,8 @@ def checks(count=COUNT):
 
 
 def check(found, command):
-    """What samples of rocks that were asked for have beside it, from what :func:`run` returned for :func:`checks`: a dictionary with a row for each, and how many samples are within
-    the table's interval."""
+    """What samples of rocks that were asked for have beside it, from what :func:`run` returned for :func:`checks`: a
+    dictionary with a row for each, and how many samples are within the table's interval."""
     said, within, lines = rocks.table()["one_sample_95"], [], []
     for (cohesion, angle), row in zip(CHECKED, found):
         unit = rocks.contacts(cohesion, angle).tensile_strength

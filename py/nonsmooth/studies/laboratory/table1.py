@@ -1,7 +1,8 @@
-"""The macroscopic strengths of the paper's Table 1 beside ours: of the rock, by biaxial tests, and of the walls, by slides on them. Needs no YADE.
+"""The macroscopic strengths of the paper's Table 1 beside ours: of the rock, by biaxial tests, and of the walls, by
+slides on them. Needs no YADE.
 
-Taboada and Estrada (2009), sections 5.2 and 5.3, Table 1. DP is shipped without bonds, as section 5.3 calls it cohesionless; its row of the table is also measured with
-bonds of the 100 kPa that the table gives it.
+Taboada and Estrada (2009), sections 5.2 and 5.3, Table 1. DP is shipped without bonds, as section 5.3 calls it
+cohesionless; its row of the table is also measured with bonds of the 100 kPa that the table gives it.
 """
 
 from __future__ import annotations
@@ -56,11 +57,12 @@ def run(
     resume=False,
     progress=lambda share, doing: None,
 ):
-    """Makes all tests below the folder ``out``, and returns what JSON can hold: ``rock`` (campaign.summarise), ``walls`` {row: [wall_shear.strength_of, one a seed]}, and
-    ``rows`` (see :func:`rows`).
+    """Makes all tests below the folder ``out``, and returns what JSON can hold: ``rock`` (campaign.summarise),
+    ``walls`` {row: [wall_shear.strength_of, one a seed]}, and ``rows`` (see :func:`rows`).
 
-    ``disks``: of a sample; ``seeds``, ``pressures`` [Pa]: of the biaxial tests, which go to ``strain``; ``slide_seeds``, ``slide_pressures`` [Pa]: of the slides. ``progress``: called with the
-    share done and what is being done. Raises what campaign.run and wall_shear.run raise.
+    ``disks``: of a sample; ``seeds``, ``pressures`` [Pa]: of the biaxial tests, which go to ``strain``;
+    ``slide_seeds``, ``slide_pressures`` [Pa]: of the slides. ``progress``: called with the share done and what is being
+    done. Raises what campaign.run and wall_shear.run raise.
     """
     out, rock = Path(out), materials.load(material)
     tests = [
@@ -93,8 +95,9 @@ def run(
 
 
 def rows(told):
-    """[{"row", "figure", "mean", "half_95", "paper"}] of what :func:`run` found, in the order of Table 1; half of the 95 % interval over seeds is None for one seed, ``paper`` None
-    where the table leaves it open, ``mean`` where it was not measured."""
+    """[{"row", "figure", "mean", "half_95", "paper"}] of what :func:`run` found, in the order of Table 1; half of the
+    95 % interval over seeds is None for one seed, ``paper`` None where the table leaves it open, ``mean`` where it was
+    not measured."""
     found = []
     for row, paper in PAPER.items():
         for figure in FIGURES:

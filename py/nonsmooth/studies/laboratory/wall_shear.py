@@ -97,7 +97,9 @@ class SlideTest:
 
 @dataclass(frozen=True)
 class Slide:
-    """What a test found: stresses [Pa] at the peak and after slip, and the share of the wall that bonded disks cover."""
+    """What a test found: stresses [Pa] at the peak and after slip, and the share of the wall that bonded disks
+    cover.
+    """
 
     normal_peak: float
     shear_peak: float

@@ -1,7 +1,10 @@
-"""Whether bonds that close freely become the default: the measure, which was written down before a test was made with it, and what the tests say. Needs no YADE.
+"""Whether bonds that close freely become the default: the measure, which was written down before a test was made with
+it, and what the tests say. Needs no YADE.
 
-The paper does not say whether a bond that is made over a gap bears compression over it. The shipped one does, as a strut; :doc:`/theory/law` has the other. A rock of other bonds meets the measure where it
-meets all of :data:`COUNTED` and :data:`MEANS`, in one reading between one kind of platens, and loses none of the paper's numbers that the shipped reading meets.
+The paper does not say whether a bond that is made over a gap bears compression over it. The shipped one does, as a
+strut; :doc:`/theory/law` has the other. A rock of other bonds meets the measure where it meets all of :data:`COUNTED`
+and :data:`MEANS`, in one reading between one kind of platens, and loses none of the paper's numbers that the shipped
+reading meets.
 """
 
 from __future__ import annotations
@@ -15,7 +18,8 @@ SHIPPED_PLATENS = "smooth"  # between which the shipped reading stands beside th
 SAMPLES, DISKS = 5, 2000  # that the measure asks for: so many samples, of so many disks
 LEAST = 4  # samples of them in which a criterion that is counted holds
 
-#: {criterion: (what it says, of a sample under 8 MPa (reading_numbers.samples_of), lowest, highest)}, in at least LEAST samples.
+#: {criterion: (what it says, of a sample under 8 MPa (reading_numbers.samples_of), lowest, highest)}, in at least LEAST
+#: samples.
 COUNTED = {
     "a": ("peak at 0.5 to 2 % of strain", "strain_peak", 0.005, 0.02),
     "b": ("two conjugate bands at 1 % of strain", "bands_at_1_percent", 2, 2),
@@ -32,11 +36,14 @@ WORDS = {name: SHOWN[name][0] if name in SHOWN else PEAKS for name in PAPER}
 
 
 def verdict(row, shipped):
-    """What the measure says of a reading. ``row``, ``shipped``: rows of :func:`.readings.run`, of the reading and of the shipped one.
+    """What the measure says of a reading. ``row``, ``shipped``: rows of :func:`.readings.run`, of the reading and of
+    the shipped one.
 
-    Returns a dictionary: ``name``, ``label``, ``platens``; ``criteria``, {criterion: {"found": text, "met": bool, None where nothing was run that tells it}};
-    ``lost``, numbers of PAPER that the shipped reading meets and this one does not; ``default``, whether it becomes the default: False where a criterion is not met or a number is lost, None where all that was
-    tested is met but not all was tested. It is None too where not :data:`SAMPLES` samples of :data:`DISKS` disks were tested, which decide nothing.
+    Returns a dictionary: ``name``, ``label``, ``platens``; ``criteria``, {criterion: {"found": text, "met": bool, None
+    where nothing was run that tells it}}; ``lost``, numbers of PAPER that the shipped reading meets and this one does
+    not; ``default``, whether it becomes the default: False where a criterion is not met or a number is lost, None where
+    all that was tested is met but not all was tested. It is None too where not :data:`SAMPLES` samples of :data:`DISKS`
+    disks were tested, which decide nothing.
     """
     samples = row["samples"]
     criteria = {}
@@ -69,7 +76,9 @@ def _told(row, name):
 
 
 def verdicts(rows):
-    """A :func:`verdict` for each row of a reading of :data:`CLOSING`; none where the shipped reading is not among the rows of :func:`.readings.run`."""
+    """A :func:`verdict` for each row of a reading of :data:`CLOSING`; none where the shipped reading is not among the
+    rows of :func:`.readings.run`.
+    """
     shipped = next((r for r in rows if (r["name"], r["platens"]) == (SHIPPED, SHIPPED_PLATENS)), None)
     return [verdict(r, shipped) for r in rows if r["name"] in CLOSING] if shipped else []
 

@@ -17,7 +17,9 @@ CONTROLS = ("no-weakening", "no-release")
 
 
 def draw(found, out) -> list:
-    """Draws what the runs ``found`` (:func:`.campaign.paper_slopes.run`) show into the folder ``out``; returns the pictures' paths. Without the shipped slope there is none."""
+    """Draws what the runs ``found`` (:func:`.campaign.paper_slopes.run`) show into the folder ``out``; returns the
+    pictures' paths. Without the shipped slope there is none.
+    """
     runs, out = found.get(SHIPPED, []), Path(out)
     if not runs:
         return []

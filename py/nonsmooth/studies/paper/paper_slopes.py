@@ -1,8 +1,10 @@
-"""The shipped slope, and what its paper says would change it or would not: control runs, as plans of a campaign. Needs no YADE.
+"""The shipped slope, and what its paper says would change it or would not: control runs, as plans of a campaign. Needs
+no YADE.
 
-Taboada and Estrada (2009) hold that no avalanche comes without weakening of the slip surface ([72], [126]), that the criterion by which disks are released from water has no
-major influence ([113]), and that the slope fails where the water table has risen to a height ([115], [116]). A :class:`Variant` is the shipped section with some keys changed;
-one of them stops the table at the height that the shipped slope of the same packing had at t1, so it runs after that one.
+Taboada and Estrada (2009) hold that no avalanche comes without weakening of the slip surface ([72], [126]), that the
+criterion by which disks are released from water has no major influence ([113]), and that the slope fails where the
+water table has risen to a height ([115], [116]). A :class:`Variant` is the shipped section with some keys changed; one
+of them stops the table at the height that the shipped slope of the same packing had at t1, so it runs after that one.
 """
 
 from __future__ import annotations
@@ -32,8 +34,9 @@ TABLE = "water.table"
 
 @dataclass(frozen=True)
 class Variant:
-    """``label``: in words; ``paper``: the paragraphs it is about; ``keys``: of the section file, with dots, and their values; ``stops_at``: number of the summary of the shipped
-    slope of the same packing, at which height the table stops."""
+    """``label``: in words; ``paper``: the paragraphs it is about; ``keys``: of the section file, with dots, and their
+    values; ``stops_at``: number of the summary of the shipped slope of the same packing, at which height the table
+    stops."""
 
     label: str
     paper: str
@@ -54,7 +57,8 @@ VARIANTS = {
 
 
 def slope_of(name, disks, seed, shipped=None):
-    """The Section of a variant with about so many disks. ``shipped``: the summary of the shipped slope of this packing, where the variant asks for one.
+    """The Section of a variant with about so many disks. ``shipped``: the summary of the shipped slope of this packing,
+    where the variant asks for one.
 
     Raises PlanError where that summary has not the number, SectionError for a number of disks or a seed that is none.
     """
@@ -66,13 +70,16 @@ def slope_of(name, disks, seed, shipped=None):
             raise PlanError(
                 f"{name}, seed {seed}: the shipped slope of this packing has no {variant.stops_at}, where the table is to stop; give other seeds or more disks"
             )
-        # the shipped course up to there: it also waits where the slope moves and comes to rest again, as it would not with a height for stages.water.hold
+        # the shipped course up to there: it also waits where the slope moves and comes to rest again, as it would not
+        # with a height for stages.water.hold
         values[TABLE] = {"points": [[0.0, 0.0], [height / base.water.rate, height]]}
     return section_values.with_values(base, values, f"{name}, seed {seed}")
 
 
 def check(names, disks, seeds):
-    """The ``names`` of variants and the ``seeds`` as lists. Raises PlanError for some that are none or stand twice, SectionError for a number of disks that is none."""
+    """The ``names`` of variants and the ``seeds`` as lists. Raises PlanError for some that are none or stand twice,
+    SectionError for a number of disks that is none.
+    """
     names, seeds = list(names), list(seeds)
     unknown = [name for name in names if name not in VARIANTS]
     if unknown or not names or len(set(names)) < len(names):
@@ -86,9 +93,11 @@ def check(names, disks, seeds):
 
 
 def run(names, out, disks, seeds, threads=1, resume=False, progress=lambda share, ended: None) -> dict:
-    """Runs the variants called ``names``, one slope of about so many ``disks`` for each of the ``seeds``, below the folder ``out``: {name: [runs.Run, …]}, in the order of the seeds.
+    """Runs the variants called ``names``, one slope of about so many ``disks`` for each of the ``seeds``, below the
+    folder ``out``: {name: [runs.Run, …]}, in the order of the seeds.
 
-    What a variant asks of the shipped slope is run too. The rest as for :meth:`.plan.Plan.run`. Raises PlanError for names or seeds that are none or stand twice, and what that raises.
+    What a variant asks of the shipped slope is run too. The rest as for :meth:`.plan.Plan.run`. Raises PlanError for
+    names or seeds that are none or stand twice, and what that raises.
     """
     names, seeds = check(names, disks, seeds)
     after = [name for name in names if VARIANTS[name].stops_at]
@@ -119,9 +128,11 @@ def _planned(name, made, seed):
 
 
 def rows(found) -> list:
-    """What :func:`run` returned as plain data, a dictionary for each variant: ``name``, ``label``, ``paper``, ``of``, how many slopes there are, ``verdicts`` ({what became of a slope: how many}),
-    ``weakened``, of how many the slip surface came to D_c, and ``numbers``, {name of a number of the summary, those of its dictionaries as ``key.key``: as statistics.over_seeds has it over the slopes
-    that have it, with ``of``, how many these are}. Among these are ``triggering_by_speed_s`` and ``motion_by_speed_s``, t3 − t2 and t5 − t3 by other thresholds of speed.
+    """What :func:`run` returned as plain data, a dictionary for each variant: ``name``, ``label``, ``paper``, ``of``,
+    how many slopes there are, ``verdicts`` ({what became of a slope: how many}), ``weakened``, of how many the slip
+    surface came to D_c, and ``numbers``, {name of a number of the summary, those of its dictionaries as ``key.key``: as
+    statistics.over_seeds has it over the slopes that have it, with ``of``, how many these are}. Among these are
+    ``triggering_by_speed_s`` and ``motion_by_speed_s``, t3 − t2 and t5 − t3 by other thresholds of speed.
     """
     found_rows = []
     for name, runs in found.items():
@@ -151,7 +162,9 @@ def rows(found) -> list:
 
 
 def _durations(summary):
-    """Triggering and motion as other rules for t2 and t5 have them [s], by the thresholds of characteristic_times.by_threshold."""
+    """Triggering and motion as other rules for t2 and t5 have them [s], by the thresholds of
+    characteristic_times.by_threshold.
+    """
     t3 = summary.get("times_s", {}).get("t3")
     known = lambda name: summary.get(name, {}).items()  # noqa: E731
     less = lambda a, b: None if a is None or b is None else a - b  # noqa: E731
@@ -175,7 +188,9 @@ SHOWN = {
 
 
 def table(rows):
-    """(heads, lines) of texts for what :func:`rows` returned, a line for each variant; a mean of fewer than all slopes has their number behind it."""
+    """(heads, lines) of texts for what :func:`rows` returned, a line for each variant; a mean of fewer than all slopes
+    has their number behind it.
+    """
     lines = []
     for row in rows:
         count = sum(row["verdicts"].values())

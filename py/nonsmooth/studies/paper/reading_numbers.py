@@ -1,7 +1,10 @@
-"""What is measured of a reading of the paper: its rock's strengths, each of its samples, the water that its slope bears, and how near these are to the paper. Needs no YADE.
+"""What is measured of a reading of the paper: its rock's strengths, each of its samples, the water that its slope
+bears, and how near these are to the paper. Needs no YADE.
 
-How near is one number, the root mean square of :func:`misses`: differences from :data:`PAPER` by what they may be. The load of a sample has two maxima, and which of them is the higher changes from
-packing to packing. A mean strain of the peak would then be one that no sample has, so that the strains of all samples stand here, and each counts by its own difference from the paper.
+How near is one number, the root mean square of :func:`misses`: differences from :data:`PAPER` by what they may be. The
+load of a sample has two maxima, and which of them is the higher changes from packing to packing. A mean strain of the
+peak would then be one that no sample has, so that the strains of all samples stand here, and each counts by its own
+difference from the paper.
 """
 
 from __future__ import annotations
@@ -31,7 +34,8 @@ __all__ = [
     "toe_water",
 ]
 
-#: {number: (of the paper, what a reading may differ by)}: Table 1, Figure 10 (the strain of the peak, as its binary logarithm), and [115].
+#: {number: (of the paper, what a reading may differ by)}: Table 1, Figure 10 (the strain of the peak, as its binary
+#: logarithm), and [115].
 PAPER = {
     "cohesion_peak_kPa": (88.0, 25.0),
     "friction_peak_deg": (38.5, 2.0),
@@ -51,10 +55,12 @@ SHIPPED = "shipped"  # the reading that is
 def row(summary, folder, slopes):
     """The numbers of a reading, a dictionary that JSON can hold.
 
-    ``summary``: of its tests (:func:`.campaign.summarise`), in the ``folder``; ``slopes``: results of its slopes, none where they were not run. A number is None where no test tells it, as the cohesion
-    of a single pressure. For each strength of :data:`PAPER` and for ``water_highest_m`` the mean over
-    seeds and ``…_95``, half of the 95 % interval (None for one seed); ``water_highest_m_each``; ``strain_peak``: those of all samples, [[under 4, 8, 16 MPa], one list a seed]; ``samples``: see
-    :func:`samples_of`; ``misses`` (see :func:`misses`) and their root mean square ``distance``, None where a number is missing.
+    ``summary``: of its tests (:func:`.campaign.summarise`), in the ``folder``; ``slopes``: results of its slopes, none
+    where they were not run. A number is None where no test tells it, as the cohesion of a single pressure. For each
+    strength of :data:`PAPER` and for ``water_highest_m`` the mean over seeds and ``…_95``, half of the 95 % interval
+    (None for one seed); ``water_highest_m_each``; ``strain_peak``: those of all samples, [[under 4, 8, 16 MPa], one
+    list a seed]; ``samples``: see :func:`samples_of`; ``misses`` (see :func:`misses`) and their root mean square
+    ``distance``, None where a number is missing.
     """
     found = {}
     for name in list(PAPER)[:4]:
@@ -80,9 +86,11 @@ def row(summary, folder, slopes):
 def samples_of(tests, folder):
     """What each sample says under :data:`FIGURE_9`, a list of dictionaries, one a seed.
 
-    ``tests``: dictionaries of :func:`.campaign.measure`; ``folder``: in which they were run. ``seed``, ``disks``; ``strain_peak``; ``deviator_peak_MPa``, the largest σ₁ − σ₃; ``cohesion_peak_kPa``, of
-    this sample's envelope over all of its pressures, None of a single one; ``bands_at_1_percent``, 2 where two bands are conjugate at 1 % of strain, 1 where there is one that prevails, 0 without any; ``residual_deg``, {window:
-    apparent angle of friction [°] of the mean stresses between the strains of :data:`WINDOWS`}, None where the test ends before.
+    ``tests``: dictionaries of :func:`.campaign.measure`; ``folder``: in which they were run. ``seed``, ``disks``;
+    ``strain_peak``; ``deviator_peak_MPa``, the largest σ₁ − σ₃; ``cohesion_peak_kPa``, of this sample's envelope over
+    all of its pressures, None of a single one; ``bands_at_1_percent``, 2 where two bands are conjugate at 1 % of
+    strain, 1 where there is one that prevails, 0 without any; ``residual_deg``, {window: apparent angle of friction [°]
+    of the mean stresses between the strains of :data:`WINDOWS`}, None where the test ends before.
     """
     found = []
     for t in sorted(tests, key=lambda t: t["seed"]):
@@ -109,13 +117,16 @@ def samples_of(tests, folder):
 
 
 def series_of(test, folder):
-    """The series of a test, its dictionary of :func:`.campaign.measure` or another one with ``confining_Pa`` and ``seed``, that was run in the ``folder``."""
+    """The series of a test, its dictionary of :func:`.campaign.measure` or another one with ``confining_Pa`` and
+    ``seed``, that was run in the ``folder``.
+    """
     return records.read_series(Path(folder) / "tests" / campaign.name_of_result(test) / "series.csv")
 
 
 def misses(row):
-    """{number: difference from the paper by what it may be} for a dictionary with the numbers of :data:`PAPER`; 1 and less is within it, None where a number is missing. That of the peaks' strains is
-    the root mean square over all samples."""
+    """{number: difference from the paper by what it may be} for a dictionary with the numbers of :data:`PAPER`; 1 and
+    less is within it, None where a number is missing. That of the peaks' strains is the root mean square over all
+    samples."""
     found = {}
     for name, (wanted, allowed) in PAPER.items():
         value = row[name]
@@ -129,8 +140,9 @@ def misses(row):
 
 
 def toe_water():
-    """The height of the water table at which Rankine's passive toe (:mod:`..toe`) fails, of the shipped section with the envelope of Table 1 and the paper's packing fraction, 0.84: {"disk", "bulk": on
-    which volume the water acts: {"normal_m": along the normal of DP, "upright_m": upright, which is that by cos β}}."""
+    """The height of the water table at which Rankine's passive toe (:mod:`..toe`) fails, of the shipped section with
+    the envelope of Table 1 and the paper's packing fraction, 0.84: {"disk", "bulk": on which volume the water acts:
+    {"normal_m": along the normal of DP, "upright_m": upright, which is that by cos β}}."""
     shipped, found = section.load("jiufengershan"), {}
     for volume in ("disk", "bulk"):
         made = dataclasses.replace(shipped, water=dataclasses.replace(shipped.water, volume=volume))
@@ -151,7 +163,9 @@ PEAKS = "peaks at 0.5 to 2 % of strain"
 
 
 def tables(rows):
-    """Tables for rows of :func:`.readings.run`, [title, heads, lines] each, of texts: the numbers of each reading beside the paper's, the nearest first, and its samples under 8 MPa."""
+    """Tables for rows of :func:`.readings.run`, [title, heads, lines] each, of texts: the numbers of each reading
+    beside the paper's, the nearest first, and its samples under 8 MPa.
+    """
     ordered = by_distance(rows)
     mean = lambda row, name: told(row[name], row.get(f"{name}_95"), SHOWN[name][1])  # noqa: E731
     paper = {name: wanted for name, (wanted, _) in PAPER.items()}
@@ -183,7 +197,9 @@ def tables(rows):
 
 
 def by_distance(rows):
-    """Rows of :func:`.readings.run`, those of a reading together and the nearest first: readings by their nearest row."""
+    """Rows of :func:`.readings.run`, those of a reading together and the nearest first: readings by their nearest
+    row.
+    """
     far = lambda row: math.inf if row["distance"] is None else row["distance"]  # noqa: E731
     nearest = {}
     for row in rows:

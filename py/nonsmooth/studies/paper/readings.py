@@ -1,9 +1,11 @@
-"""What the paper leaves open, read in several ways: each reading as a rock in biaxial tests and as the slope under a rising water table. Needs no YADE.
+"""What the paper leaves open, read in several ways: each reading as a rock in biaxial tests and as the slope under a
+rising water table. Needs no YADE.
 
-Taboada and Estrada (2009) give neither the largest gap that is bonded, Δ, nor how a packing is made, when it is bonded, the lateral boundaries of the biaxial
-tests or the shape of the slope's toe. A reading is the shipped section with some keys changed, and a sample of its rock made and tested in one way. Its sample is tested between smooth and between rough
-platens, of which the paper says nothing either; a reading that is itself about the sample's boundary stands once. What is measured of a reading, and how near it is to the paper, says
-:mod:`.reading_numbers`.
+Taboada and Estrada (2009) give neither the largest gap that is bonded, Δ, nor how a packing is made, when it is bonded,
+the lateral boundaries of the biaxial tests or the shape of the slope's toe. A reading is the shipped section with some
+keys changed, and a sample of its rock made and tested in one way. Its sample is tested between smooth and between rough
+platens, of which the paper says nothing either; a reading that is itself about the sample's boundary stands once. What
+is measured of a reading, and how near it is to the paper, says :mod:`.reading_numbers`.
 """
 
 from __future__ import annotations
@@ -34,8 +36,9 @@ LAYERS_ROCK = "rock"  # material of the shipped section's layers
 
 @dataclass(frozen=True)
 class Reading:
-    """``label``: in words; ``keys``: of the section file, with dots; ``test``: fields of the biaxial Test and, as ``count``, ``friction`` and ``aspect``, of its Shape; ``shape``: changes the plain
-    data of a section in place; ``platens``: between which its samples are tested."""
+    """``label``: in words; ``keys``: of the section file, with dots; ``test``: fields of the biaxial Test and, as
+    ``count``, ``friction`` and ``aspect``, of its Shape; ``shape``: changes the plain data of a section in place;
+    ``platens``: between which its samples are tested."""
 
     label: str
     keys: dict = field(default_factory=dict)
@@ -45,7 +48,9 @@ class Reading:
 
 
 def _toe(thickness=65.0, inclination=90.0):
-    """Gives the shipped slope a toe of so many metres normal to DP, and its backstop so many degrees to DP, measured in the mass."""
+    """Gives the shipped slope a toe of so many metres normal to DP, and its backstop so many degrees to DP, measured in
+    the mass.
+    """
 
     def change(data):
         beta, theta = math.radians(section.of(data).dip), math.radians(inclination)
@@ -63,8 +68,9 @@ def _toe(thickness=65.0, inclination=90.0):
 
 
 def _layers(thickness, thinnest=4.0):
-    """Gives the shipped slope layers of so many metres from DP upwards. Its surface is as before and cuts the upper ones, which thin out up the slope; where one would be thinner than
-    ``thinnest`` [m], the largest disk, the layer below it reaches to the surface."""
+    """Gives the shipped slope layers of so many metres from DP upwards. Its surface is as before and cuts the upper
+    ones, which thin out up the slope; where one would be thinner than ``thinnest`` [m], the largest disk, the layer
+    below it reaches to the surface."""
 
     def change(data):
         beta = math.radians(section.of(data).dip)
@@ -153,7 +159,9 @@ def slope_of(reading, disks, seed):
 
 
 def tests_of(reading, disks, seeds, platens, strain=biaxial_test.BiaxialTest.strain, pressures=PRESSURES):
-    """The biaxial Tests of a Reading between ``platens`` (see biaxial_test.BiaxialTest): of its rock, one for each seed and for each of the ``pressures`` [Pa]."""
+    """The biaxial Tests of a Reading between ``platens`` (see biaxial_test.BiaxialTest): of its rock, one for each seed
+    and for each of the ``pressures`` [Pa].
+    """
     fields = dict(reading.test)
     count = round(disks * fields.pop("count", 1.0))
     shape = {key: fields.pop(key) for key in ("friction", "aspect") if key in fields}
@@ -179,13 +187,16 @@ def run(
     resume=False,
     progress=lambda share, doing: None,
 ):
-    """Runs the tests and the slopes of ``chosen``, {name: Reading}, below the folder ``out``; those that several share are run once. Returns rows, a list of dictionaries, one for each
-    reading and each of the ``platens`` between which its samples are tested; a reading that stands once is tested between its own.
+    """Runs the tests and the slopes of ``chosen``, {name: Reading}, below the folder ``out``; those that several share
+    are run once. Returns rows, a list of dictionaries, one for each reading and each of the ``platens`` between which
+    its samples are tested; a reading that stands once is tested between its own.
 
-    ``pressures`` [Pa]; ``slopes``: whether the slopes are run. What a row would take from other tests, or from slopes, is None in it.
+    ``pressures`` [Pa]; ``slopes``: whether the slopes are run. What a row would take from other tests, or from slopes,
+    is None in it.
 
-    A row has ``name``, ``label``, ``platens``, ``folder`` (of its tests, below ``out``), and what :func:`.reading_numbers.row` says. ``progress``: called with the share done and what
-    is being done. Raises what campaign.run raises, and processes.RunError.
+    A row has ``name``, ``label``, ``platens``, ``folder`` (of its tests, below ``out``), and what
+    :func:`.reading_numbers.row` says. ``progress``: called with the share done and what is being done. Raises what
+    campaign.run raises, and processes.RunError.
     """
     out, wanted = Path(out), {}
     for name, reading in chosen.items():

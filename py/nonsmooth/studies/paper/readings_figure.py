@@ -1,4 +1,6 @@
-"""Figures of readings of what the paper leaves open: their numbers beside the paper's, and stress against strain for bonds over several gaps."""
+"""Figures of readings of what the paper leaves open: their numbers beside the paper's, and stress against strain for
+bonds over several gaps.
+"""
 
 from pathlib import Path
 
@@ -12,7 +14,8 @@ __all__ = ["GAPS", "beside", "stress_strain", "stress_strain_of"]
 
 APART = 0.17  # of a line, from its middle to the rows of smooth and of rough platens
 
-#: Readings of the figure of stress against strain: those of a row have the bonds that its name says, over gaps up to the Δ above each column.
+#: Readings of the figure of stress against strain: those of a row have the bonds that its name says, over gaps up to
+#: the Δ above each column.
 GAPS = (0.015, 0.02, 0.025)
 BONDS = {
     "bonds bear compression\n(as shipped)": ("gap-0.015", "gap-0.02", SHIPPED),
@@ -24,8 +27,9 @@ END = 0.06  # strain at the right end, or where the tests end before
 
 @style.styled
 def beside(rows, path=None, pdf=False):
-    """The numbers of each reading (rows of `laboratory.readings.run`), nearest first, a column for each number, what counts as the paper's as a band: means with their 95 % interval, of the peak's strain
-    every sample. Filled: smooth platens; open: rough ones; square: others.
+    """The numbers of each reading (rows of `laboratory.readings.run`), nearest first, a column for each number, what
+    counts as the paper's as a band: means with their 95 % interval, of the peak's strain every sample. Filled: smooth
+    platens; open: rough ones; square: others.
     """
     rows = by_distance(rows)
     lines = {name: k for k, name in enumerate(dict.fromkeys(row["name"] for row in rows))}
@@ -110,9 +114,11 @@ def _numbers(ax, row, name, y, marker, fill):
 
 @style.styled
 def stress_strain(curves, path=None, pdf=False):
-    """Axial stress against axial strain of every sample, a panel for each Δ of :data:`GAPS` and each kind of :data:`BONDS`; dots: peaks, where they are not beyond the right end; the paper's range of peaks is a band.
+    """Axial stress against axial strain of every sample, a panel for each Δ of :data:`GAPS` and each kind of
+    :data:`BONDS`; dots: peaks, where they are not beyond the right end; the paper's range of peaks is a band.
 
-    ``curves``: {reading: {seed: series}}, columns of `laboratory.biaxial.COLUMNS`, of all readings of :data:`BONDS`. A line is the mean over 0.2 % of strain, whose largest is the peak.
+    ``curves``: {reading: {seed: series}}, columns of `laboratory.biaxial.COLUMNS`, of all readings of :data:`BONDS`. A
+    line is the mean over 0.2 % of strain, whose largest is the peak.
     """
     fig = style.figure(10.2, 5.8, layout="constrained")
     axes = fig.subplots(2, 3, sharex=True, sharey=True)
@@ -150,7 +156,8 @@ def stress_strain(curves, path=None, pdf=False):
 
 
 def stress_strain_of(rows, out):
-    """Writes :func:`stress_strain` under 8 MPa for each kind of platens of which all readings of :data:`BONDS` are among the rows of ``laboratory.readings.run`` in the folder ``out``: between smooth ones as
+    """Writes :func:`stress_strain` under 8 MPa for each kind of platens of which all readings of :data:`BONDS` are
+    among the rows of ``laboratory.readings.run`` in the folder ``out``: between smooth ones as
     ``readings_stress_strain.png``, else with the platens behind. Returns the paths."""
     made, names = [], [name for one in BONDS.values() for name in one]
     for platens in dict.fromkeys(row["platens"] for row in rows):

@@ -1,9 +1,11 @@
 """A slope experiment: bond, load, rest dry, raise the water, follow the avalanche until it rests.
 
-What decides its course stands in :mod:`yade.nonsmooth.course.slope`, and :mod:`yade.nonsmooth.course.driver` drives it; here it is looked at, and what was decided is done. All that a run goes on with stands in
-:class:`.course.slope.State`, which goes into checkpoints; nothing depends on wall time.
+What decides its course stands in :mod:`yade.nonsmooth.course.slope`, and :mod:`yade.nonsmooth.course.driver` drives it;
+here it is looked at, and what was decided is done. All that a run goes on with stands in :class:`.course.slope.State`,
+which goes into checkpoints; nothing depends on wall time.
 
-* a step is ``numerics.time_step``, or as short as the speeds of contacts want it (NonsmoothTimeStepper, where the section gives a ``path``);
+* a step is ``numerics.time_step``, or as short as the speeds of contacts want it (NonsmoothTimeStepper, where the
+  section gives a ``path``);
 * forces on walls are means over the steps since the row before, and the largest.
 """
 
@@ -63,9 +65,9 @@ class EndError(ExperimentError, ValueError):
 class Experiment(driver.Course):
     """Runs a built :class:`~nonsmooth.studies.slope.slope.Slope` and writes its records into ``folder``.
 
-    ``progress``: called with (stage, seconds simulated, seconds foreseen) after every row. ``damping_moving``: of soft contacts, instead of
-    their world's while the slope moves. A slope of soft contacts has no checkpoints. ``state``, ``mark``: of a checkpoint, see :func:`resume`; without
-    them the records of an earlier run in ``folder`` are removed.
+    ``progress``: called with (stage, seconds simulated, seconds foreseen) after every row. ``damping_moving``: of soft
+    contacts, instead of their world's while the slope moves. A slope of soft contacts has no checkpoints. ``state``,
+    ``mark``: of a checkpoint, see :func:`resume`; without them the records of an earlier run in ``folder`` are removed.
     """
 
     def __init__(self, built, folder, state=None, layers=None, progress=None, damping_moving=None, mark=None):
@@ -121,17 +123,22 @@ class Experiment(driver.Course):
 
     # ---- the course ---------------------------------------------------------------------------
     def run(self, end=None, stands=None):
-        """Runs until the experiment is over, or until ``end`` [s] of simulated time, to the row that comes then or next. It may be called again, with a later ``end`` or none, and goes on from where it
-        was, also after :meth:`attach`, after Ctrl-C and after an error that has been mended. Where the experiment is over, nothing is left to do.
+        """Runs until the experiment is over, or until ``end`` [s] of simulated time, to the row that comes then or
+        next. It may be called again, with a later ``end`` or none, and goes on from where it was, also after
+        :meth:`attach`, after Ctrl-C and after an error that has been mended. Where the experiment is over, nothing is
+        left to do.
 
-        ``stands``: whether a slope that stands, and that nothing to come can move, ends it (see :mod:`yade.nonsmooth.course.slope`). Otherwise it goes on to its longest time, so that a script can do
-        more to it. Unless given, that ends a run without ``end`` in a scene that has no engines of a script (PyRunner, and those that push or move bodies).
+        ``stands``: whether a slope that stands, and that nothing to come can move, ends it (see
+        :mod:`yade.nonsmooth.course.slope`). Otherwise it goes on to its longest time, so that a script can do more to
+        it. Unless given, that ends a run without ``end`` in a scene that has no engines of a script (PyRunner, and
+        those that push or move bodies).
 
-        Ctrl-C ends it after the next row, with a checkpoint, by raising interrupts.Interrupted. O.bodies and O.interactions are up to date when it ends; within ``progress``
-        they are after the engine's ``view()``.
+        Ctrl-C ends it after the next row, with a checkpoint, by raising interrupts.Interrupted. O.bodies and
+        O.interactions are up to date when it ends; within ``progress`` they are after the engine's ``view()``.
 
-        Raises EndError, which is a ValueError, for an ``end`` that is no number or not after the present time, before anything is done; StepError where an engine refuses a step, and ExperimentError
-        where a disk has left the section.
+        Raises EndError, which is a ValueError, for an ``end`` that is no number or not after the present time, before
+        anything is done; StepError where an engine refuses a step, and ExperimentError where a disk has left the
+        section.
         """
         if end is not None:
             remedy = f"the run is at {O.time:.6g} s of simulated time; give a later time [s], or none to run until the experiment is over"
@@ -178,7 +185,9 @@ class Experiment(driver.Course):
         return results.summarise(self.folder, self.section, state, threads=threads)
 
     def draw(self):
-        """Draws all figures that the records allow, and the video; returns their paths and notes. What has not been summarised yet is, see :meth:`summarise`."""
+        """Draws all figures that the records allow, and the video; returns their paths and notes. What has not been
+        summarised yet is, see :meth:`summarise`.
+        """
         from . import run_figures  # brings matplotlib, which a run that draws nothing need not wait for
 
         path = self.folder / results.SUMMARY
@@ -186,9 +195,10 @@ class Experiment(driver.Course):
         return run_figures.draw(self.folder, self.section, summary)
 
     def attach(self, stands=False):
-        """Lets steps by O.run(), O.step(), the viewer and yade-batch go through the course: a CourseRunner becomes the first of O.engines, which does what :meth:`run` does
-        between steps, and pauses the run where the course is over; that ends with the step that has begun. Returns the engine. ``stands``: as of :meth:`run`; unless
-        given, a slope that stands goes on to its longest time, as a script or a hand may do more to it between two steps.
+        """Lets steps by O.run(), O.step(), the viewer and yade-batch go through the course: a CourseRunner becomes the
+        first of O.engines, which does what :meth:`run` does between steps, and pauses the run where the course is over;
+        that ends with the step that has begun. Returns the engine. ``stands``: as of :meth:`run`; unless given, a slope
+        that stands goes on to its longest time, as a script or a hand may do more to it between two steps.
 
         Raises ExperimentError for soft contacts, whose gravity :meth:`run` makes grow.
         """
@@ -207,7 +217,9 @@ class Experiment(driver.Course):
         return self.runner
 
     def _detach(self):
-        """Takes the engine of :meth:`attach` out again; the row that it would have written as the next step begins is written now."""
+        """Takes the engine of :meth:`attach` out again; the row that it would have written as the next step begins is
+        written now.
+        """
         if self.runner is not None:
             if not self.runner.dead and _come_to(self.runner.nextTime):
                 self._row_came()
@@ -277,7 +289,9 @@ class Experiment(driver.Course):
         )
 
     def _top(self, t):
-        """Height of the highest disk's centre above the water's plane [m]; the table acts on those whose centres are below it."""
+        """Height of the highest disk's centre above the water's plane [m]; the table acts on those whose centres are
+        below it.
+        """
         water = self.section.water
         if water is None:
             return -math.inf
@@ -285,9 +299,10 @@ class Experiment(driver.Course):
         return float(np.max((t["x"] - x) * nx + (t["y"] - y) * ny))
 
     def _outside(self, e):
-        """Energy that came from elsewhere than weight and water [J/m]: of walls that move, of what a script did between steps since the slope settled (until then gravity, which grows,
-        is counted there too) and, as long as all is dry, of forces that others put on disks. None with soft contacts, which nobody counts. It is 0 to the last bit where nobody has
-        done anything."""
+        """Energy that came from elsewhere than weight and water [J/m]: of walls that move, of what a script did between
+        steps since the slope settled (until then gravity, which grows, is counted there too) and, as long as all is
+        dry, of forces that others put on disks. None with soft contacts, which nobody counts. It is 0 to the last bit
+        where nobody has done anything."""
         if not self.hard:
             return None
         wet = self.state.wet or (self.slope.water is not None and self.slope.water.wetCount > 0)
@@ -386,7 +401,9 @@ class Experiment(driver.Course):
 
     # ---- records ------------------------------------------------------------------------------
     def _inside(self, t):
-        """Raises where a disk of the table ``t`` has left the section's box, and where a script has erased or added some."""
+        """Raises where a disk of the table ``t`` has left the section's box, and where a script has erased or added
+        some.
+        """
         if len(t["x"]) != self.slope.count:
             raise ExperimentError(
                 f"at t = {O.time:.3f} s the scene has {len(t['x'])} disks, and the slope {self.slope.count}: its records have a row for each from its beginning on. Let a script that drives a slope "
@@ -448,13 +465,17 @@ class Experiment(driver.Course):
         return row | self._of_solver(e) if self.hard else row
 
     def _of_surface(self, name, force, u):
-        """The columns of one of several slip surfaces one above another: its normal and shear force and peak, and the water's on what it bears [N/m]."""
+        """The columns of one of several slip surfaces one above another: its normal and shear force and peak, and the
+        water's on what it bears [N/m].
+        """
         slip = self.walls.slip(name)
         values = (force[0] + u, force[0], u, force[1], force[2], slip.mean, slip.weakened)
         return {records.column(column, name): value for column, value in zip(records.OWN, values, strict=True)}
 
     def _share(self, t, part):
-        """The part of the water's force that acts on what slip surfaces bear: these disks, or this part of each (None: all). Forces go with areas."""
+        """The part of the water's force that acts on what slip surfaces bear: these disks, or this part of each (None:
+        all). Forces go with areas.
+        """
         if part is None:
             return 1.0
         wet = tables.water(self.slope.water, self.slope.first_disk, self.slope.count)[0] * t["r"] ** 2
@@ -498,7 +519,9 @@ class Experiment(driver.Course):
 
     # ---- checkpoints --------------------------------------------------------------------------
     def checkpoint(self):
-        """Saves all that :func:`resume` needs; an earlier checkpoint is there until the new one is whole. With soft contacts the records alone."""
+        """Saves all that :func:`resume` needs; an earlier checkpoint is there until the new one is whole. With soft
+        contacts the records alone.
+        """
         super().checkpoint()
 
     def _save(self):
@@ -533,7 +556,9 @@ _attached = None  # that a CourseRunner drives
 
 
 def row():
-    """What the CourseRunner of :meth:`Experiment.attach` calls. Raises ExperimentError where there is no such Experiment, as after O.load()."""
+    """What the CourseRunner of :meth:`Experiment.attach` calls. Raises ExperimentError where there is no such
+    Experiment, as after O.load().
+    """
     if _attached is None or _attached.runner not in O.engines:
         raise ExperimentError(
             "this process does not know the stages of this slope, as the scene was loaded without its run: continue with experiment.resume(section, folder).attach()"
@@ -542,7 +567,9 @@ def row():
 
 
 def begin(section, folder, progress=None):
-    """A new :class:`Experiment` of a Section: packed (from the cache), built and bonded. Raises ArgumentError for what is no Section or no folder, and what slope_packing.of and slope.build raise."""
+    """A new :class:`Experiment` of a Section: packed (from the cache), built and bonded. Raises ArgumentError for what
+    is no Section or no folder, and what slope_packing.of and slope.build raise.
+    """
     _check(section, folder)
     folder = Path(folder)
     results.check_folder(folder)
@@ -578,8 +605,9 @@ def run_key(section):
 def resume(section, folder, progress=None):
     """An :class:`Experiment` that goes on from the checkpoint in ``folder``.
 
-    Raises ArgumentError for what is no Section or no folder, ExperimentError where there is no checkpoint, where it is damaged, or where it belongs to another section, and RecordsError where the series is not as it
-    was then. Nothing has been written then.
+    Raises ArgumentError for what is no Section or no folder, ExperimentError where there is no checkpoint, where it is
+    damaged, or where it belongs to another section, and RecordsError where the series is not as it was then. Nothing
+    has been written then.
     """
     _check(section, folder)
     content = checkpoints.read(folder, run_key(section), ExperimentError)

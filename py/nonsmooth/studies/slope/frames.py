@@ -1,7 +1,9 @@
-"""A run's snapshots in the course of time: at regular distances, and those of the rows that are its characteristic times. Needs no YADE.
+"""A run's snapshots in the course of time: at regular distances, and those of the rows that are its characteristic
+times. Needs no YADE.
 
-Which rows these are is known only afterwards. So a run keeps a snapshot of each row that may still become one (:func:`.characteristic_times.kept_rows`), and removes
-it when that is over. What a checkpoint has seen stays until the next one is written: a run that is killed and resumed has the files of one that was not.
+Which rows these are is known only afterwards. So a run keeps a snapshot of each row that may still become one
+(:func:`.characteristic_times.kept_rows`), and removes it when that is over. What a checkpoint has seen stays until the
+next one is written: a run that is killed and resumed has the files of one that was not.
 """
 
 from __future__ import annotations
@@ -22,9 +24,11 @@ FOLDER = "snapshots"
 
 
 class Frames:
-    """Decides for each row of a run in ``folder``, of a Section, whether a snapshot is taken, and removes those that have become idle.
+    """Decides for each row of a run in ``folder``, of a Section, whether a snapshot is taken, and removes those that
+    have become idle.
 
-    ``series``, ``state``: of a run that is resumed, its rows up to the checkpoint and the fields of course.State as a mapping.
+    ``series``, ``state``: of a run that is resumed, its rows up to the checkpoint and the fields of course.State as a
+    mapping.
     """
 
     def __init__(self, folder, section, series=None, state=None):
@@ -48,7 +52,9 @@ class Frames:
         return self.folder / f"{step:08d}.npz"
 
     def takes(self, row, regular, state):
-        """Whether a snapshot is taken of a ``row`` of the series (a mapping), which comes next; ``regular``: whether it is in any case; ``state``: as after the row."""
+        """Whether a snapshot is taken of a ``row`` of the series (a mapping), which comes next; ``regular``: whether it
+        is in any case; ``state``: as after the row.
+        """
         for name, values in self._rows.items():
             values.append(row[name])
         self._want(state)
@@ -57,7 +63,9 @@ class Frames:
         return regular or row["step"] in self._wanted
 
     def tidy(self):
-        """Removes what is idle, once the row's own snapshot is there; what was there at the last checkpoint stays. Raises WriteError."""
+        """Removes what is idle, once the row's own snapshot is there; what was there at the last checkpoint stays.
+        Raises WriteError.
+        """
         self._remove({step for step in self._extra - self._wanted if step > self._saved})
 
     def saved(self):
@@ -77,14 +85,18 @@ class Frames:
 
 
 def regular_rows(series, section, failed_dry):
-    """Which rows of a series are those of regular snapshots, bool (rows,), see :func:`.course.slope.keeps_frame`; ``failed_dry`` [s]: when, or None."""
+    """Which rows of a series are those of regular snapshots, bool (rows,), see :func:`.course.slope.keeps_frame`;
+    ``failed_dry`` [s]: when, or None.
+    """
     number = np.rint(series["time_s"] / scales.of(section).row_seconds)
     counts = (series["stage"] > 0) | (series["time_s"] >= (np.inf if failed_dry is None else failed_dry))
     return counts & (number % course.FRAME_ROWS == 0)
 
 
 def of_run(folder, series):
-    """The run's snapshots in the course of time: (time [s], path); ``series``: all of its rows. Other files are none of the run's."""
+    """The run's snapshots in the course of time: (time [s], path); ``series``: all of its rows. Other files are none of
+    the run's.
+    """
     time_of = dict(zip(series["step"].astype(int).tolist(), series["time_s"].tolist()))
     return [
         (time_of[int(p.stem)], p)

@@ -14,14 +14,16 @@ __all__ = ["MeasuringCourse"]
 class MeasuringCourse:
     """Calls functions in YADE processes of their own, each in a folder below ``out/runs`` that keeps its log.
 
-    ``total``: seconds foreseen for all of them; ``progress``: called with the share done and the name of what is being done, every second.
+    ``total``: seconds foreseen for all of them; ``progress``: called with the share done and the name of what is being
+    done, every second.
     """
 
     def __init__(self, out, total, progress):
         self.home, self.total, self.progress, self.gone = (Path(out) / "runs").resolve(), total, progress, 0.0
 
     def call(self, name, seconds, function, arguments, threads=1):
-        """What ``function(folder, **arguments)`` returns, see processes.call; ``seconds``: foreseen for it. Raises BenchmarkError where it fails.
+        """What ``function(folder, **arguments)`` returns, see processes.call; ``seconds``: foreseen for it. Raises
+        BenchmarkError where it fails.
 
         A function that takes long may write the share it has done to ``folder/progress``.
         """

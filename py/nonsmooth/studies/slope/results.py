@@ -1,4 +1,6 @@
-"""What a finished (or interrupted) run says: its summary. Needs its records alone, no YADE. Characteristic times: :mod:`.characteristic_times`."""
+"""What a finished (or interrupted) run says: its summary. Needs its records alone, no YADE. Characteristic times:
+:mod:`.characteristic_times`.
+"""
 
 from __future__ import annotations
 
@@ -53,7 +55,8 @@ FIGURES = (*(f"{name}.png" for name in PICTURES), "avalanche.mp4")
 
 
 def forget(folder):
-    """Removes what an earlier run left in ``folder``, so that nothing of it is taken for the next one's; its series and checkpoint apart.
+    """Removes what an earlier run left in ``folder``, so that nothing of it is taken for the next one's; its series and
+    checkpoint apart.
 
     Half-written files that killed runs have left go too. Raises WriteError.
     """
@@ -73,7 +76,9 @@ def _written(folder, names):
 
 
 def foreign(folder):
-    """The name of a file that a new run in ``folder`` would remove or write over and that no run has left there; None where there is none."""
+    """The name of a file that a new run in ``folder`` would remove or write over and that no run has left there; None
+    where there is none.
+    """
     folder = Path(folder)
     series = folder / SERIES
     try:
@@ -92,7 +97,9 @@ def foreign(folder):
 
 
 def check_folder(folder):
-    """Raises records.RecordsError where a new run in ``folder`` would remove or write over what no run has left there, see :func:`foreign`."""
+    """Raises records.RecordsError where a new run in ``folder`` would remove or write over what no run has left there,
+    see :func:`foreign`.
+    """
     name = foreign(folder)
     if name is not None:
         raise records.RecordsError(
@@ -101,7 +108,9 @@ def check_folder(folder):
 
 
 def forget_later(folder, stage, step):
-    """Removes snapshots of times that a run resumed in ``stage`` (of course.State) at ``step`` has not reached yet, and half-written files."""
+    """Removes snapshots of times that a run resumed in ``stage`` (of course.State) at ``step`` has not reached yet, and
+    half-written files.
+    """
     folder = Path(folder)
     later = [path for path in whole(folder / SNAPSHOTS, "*.npz") if path.stem.isdecimal() and int(path.stem) > step]
     remove(later + [folder / BEGIN] * (stage in ("settle", "dry")) + [folder / END] * (stage != "done"), EARLIER)
@@ -109,7 +118,9 @@ def forget_later(folder, stage, step):
 
 
 def moved_before_water(summary):
-    """When a run's slope moved before t0 [s], as course.State has it as ``failed_dry``; None for one that did not. ``summary``: that of :func:`summarise`, or of a version before."""
+    """When a run's slope moved before t0 [s], as course.State has it as ``failed_dry``; None for one that did not.
+    ``summary``: that of :func:`summarise`, or of a version before.
+    """
     before = summary["failed_dry_s"] if summary["failed_dry_s"] is not None else summary.get("moved_dry_s")
     return before if summary["times_s"]["t0"] is None else None
 
@@ -129,13 +140,16 @@ PASSIVE = (
     "fb_force_at_failure_over_passive"
 ).split()
 BED = ("entrained_kg_per_m", "bed_kg_per_m", "deposited_kg_per_m", "mass_kg_per_m")
-#: Between which times bands of the toe are looked for: until the slip surface is weak, and as the paper's Figure 13 has it, until the slope accelerates.
+#: Between which times bands of the toe are looked for: until the slip surface is weak, and as the paper's Figure 13 has
+#: it, until the slope accelerates.
 TOE_BANDS = {"toe_bands": ("t1", "t3"), "toe_bands_triggering": ("t0", "t2")}
 BAND = ("inclination_deg", "width_d", "rotation_rad", "contrast")
 
 
 def numbers_of(section) -> list[str]:
-    """Names of all numbers that the summary of a Section's run may have, those of its dictionaries as ``times_s.t1``: known before anything runs."""
+    """Names of all numbers that the summary of a Section's run may have, those of its dictionaries as ``times_s.t1``:
+    known before anything runs.
+    """
     found = [
         *NUMBERS,
         *travel.NAMES,
@@ -163,9 +177,11 @@ def _difference(a, b):
 
 
 def _passive(section, packing_fraction, water, force):
-    """What the toe's passive strength says about the failure, see toe.py; nothing where the rock's envelope or the water's wall is not given, or no backstop.
+    """What the toe's passive strength says about the failure, see toe.py; nothing where the rock's envelope or the
+    water's wall is not given, or no backstop.
 
-    ``water`` [m], ``force`` [N/m]: height of the table and normal force on the backstop at failure, None where there was none.
+    ``water`` [m], ``force`` [N/m]: height of the table and normal force on the backstop at failure, None where there
+    was none.
     """
     envelope = section.envelope
     if not _has_passive(section):
@@ -194,7 +210,9 @@ def _force_stages(series, section, times, second, leans):
 
 
 def while_it_fails(folder, every, times, first="t1", last="t3"):
-    """Snapshots of two characteristic times between which the toe shears; None where the run has not both. ``every``: all rows of its series; ``times``: its characteristic times."""
+    """Snapshots of two characteristic times between which the toe shears; None where the run has not both. ``every``:
+    all rows of its series; ``times``: its characteristic times.
+    """
     paths = {time: path for time, path in frames.of_run(folder, every)}
     if times["t0"] is not None and (begin := Path(folder) / BEGIN).exists():
         paths[times["t0"]] = begin
@@ -203,7 +221,9 @@ def while_it_fails(folder, every, times, first="t1", last="t3"):
 
 
 def _toe_bands(folder, every, section, times, first, last):
-    """Bands in the toe between two times (:mod:`.measure.toe_bands`) and Rankine's inclination; None where there is no backstop, or the run has not come so far."""
+    """Bands in the toe between two times (:mod:`.measure.toe_bands`) and Rankine's inclination; None where there is no
+    backstop, or the run has not come so far.
+    """
     seen = while_it_fails(folder, every, times, first, last) if section.of_role("backstop") else None
     if seen is None:
         return None
@@ -225,7 +245,9 @@ def _toe_bands(folder, every, section, times, first, last):
 
 
 def _of_layers(section, start, end):
-    """What became of the mass between two Snapshots, None for those that there are not: travel, mixing, and how far its layers are turned over."""
+    """What became of the mass between two Snapshots, None for those that there are not: travel, mixing, and how far its
+    layers are turned over.
+    """
     if start is None or end is None:
         return dict.fromkeys((*travel.NAMES, "mixing", "overturned_m"))
     ground = ground_of(section)
@@ -264,9 +286,11 @@ def _sliding_on_walls(path):
 
 
 def _of_bed(section, start, end):
-    """Masses [kg/m] that were entrained from a bed and that came to lie beyond the foot; nothing for a section without a bed, None before the end.
+    """Masses [kg/m] that were entrained from a bed and that came to lie beyond the foot; nothing for a section without
+    a bed, None before the end.
 
-    Entrained is a disk of a bed that has gone farther than ENTRAINED mean diameters of it since t0; deposited is one of the mass whose centre is beyond the foot.
+    Entrained is a disk of a bed that has gone farther than ENTRAINED mean diameters of it since t0; deposited is one of
+    the mass whose centre is beyond the foot.
     """
     beds = [k for k, layer in enumerate(section.layers) if layer.role == "bed"]
     if not beds:
@@ -285,7 +309,9 @@ def _of_bed(section, start, end):
 
 
 def summarise(folder, section, state, threads=None) -> dict:
-    """Reads the records in ``folder``, writes and returns ``summary.json``. Values that the run has not reached are null."""
+    """Reads the records in ``folder``, writes and returns ``summary.json``. Values that the run has not reached are
+    null.
+    """
     folder = Path(folder)
     every, failed_dry = records.read_series(folder / "series.csv"), state.get("failed_dry")
     if not len(every["step"]):

@@ -1,4 +1,6 @@
-"""The figures of a run, drawn from its records: one by its name, or all with the video and the files for ParaView. Needs no YADE."""
+"""The figures of a run, drawn from its records: one by its name, or all with the video and the files for ParaView.
+Needs no YADE.
+"""
 
 from __future__ import annotations
 
@@ -58,7 +60,9 @@ class Drawing:
         return [path for _, path in frames.regular(self.shots, self.every, self.section, self.failed_dry)]
 
     def video(self, progress=None):
-        """Writes ``avalanche.mp4`` into the folder: (its path, None), or (None, why there is none); None where the run has no snapshots."""
+        """Writes ``avalanche.mp4`` into the folder: (its path, None), or (None, why there is none); None where the run
+        has no snapshots.
+        """
         if not self.video_shots:
             return None
         return video.write_mp4(
@@ -84,8 +88,8 @@ class Drawing:
         return found
 
     def figure(self, name, path=None):
-        """One of results.PICTURES: the matplotlib Figure, or the ``path`` that it is written to; None where the records do not show it.
-        Raises records.RecordsError for another name."""
+        """One of results.PICTURES: the matplotlib Figure, or the ``path`` that it is written to; None where the records
+        do not show it. Raises records.RecordsError for another name."""
         if name not in results.PICTURES:
             raise records.RecordsError(f"figure {checks.shown(name)}: give one of {', '.join(results.PICTURES)}")
         if name == "forces":
@@ -113,7 +117,9 @@ class Drawing:
         return figures.deposit(self.last, self.first, self.section, path) if self.last is not None else None
 
     def _toe(self, path):
-        """Nothing where there is no backstop, where the toe has few disks, and where the run has no snapshots of its failure."""
+        """Nothing where there is no backstop, where the toe has few disks, and where the run has no snapshots of its
+        failure.
+        """
         seen = results.while_it_fails(self.folder, self.every, self.times) if self.section.of_role("backstop") else None
         envelope = self.section.envelope
         return seen and figures.toe(*seen, self.section, path, friction_deg=envelope and envelope.friction_deg)
@@ -127,7 +133,9 @@ class Drawing:
 
 
 def draw(folder, section, summary, progress=None) -> tuple[list[Path], list[str]]:
-    """Draws all figures that the records allow, and the video; returns their paths and notes on what could not be made."""
+    """Draws all figures that the records allow, and the video; returns their paths and notes on what could not be
+    made.
+    """
     drawing = Drawing(folder, section, summary)
     notes = []
     if drawing.failed_dry is not None:

@@ -1,4 +1,6 @@
-"""Builds a section with its packing as a YADE scene, of rigid disks or, in another of the :mod:`worlds`, of soft ones."""
+"""Builds a section with its packing as a YADE scene, of rigid disks or, in another of the :mod:`worlds`, of soft
+ones.
+"""
 
 from __future__ import annotations
 
@@ -19,16 +21,20 @@ __all__ = ["Slope", "build", "find", "hard", "order_of"]
 # A wall piece of this many mean diameters keeps its bounding box small and the pieces few.
 PIECE = 8.0
 REACH = 0.05  # gap [ℓ] up to which they are known in any case
-SLACK = 1e-3  # ℓ, overlaps and errors of bonds' lengths that stay: what is taken back below opens and shuts contacts, whose forces must be found anew in each step
+# ℓ, overlaps and errors of bonds' lengths that stay: what is taken back below opens and shuts contacts, whose forces
+# must be found anew in each step
+SLACK = 1e-3
 SHORTEST_STEP = 0.1  # of a section's time step, however fast its disks are
 STEP_GROWTH = 1.2  # one bond that is torn apart shortens a step, and should not shorten the next dozen
 
 
 @dataclass
 class Slope:
-    """Handles of a built scene. ``walls``: name -> ids of its pieces; ``first_disk``: id of disk 0 (ids are consecutive).
+    """Handles of a built scene. ``walls``: name -> ids of its pieces; ``first_disk``: id of disk 0 (ids are
+    consecutive).
 
-    ``solver``: what tells of the contacts and makes bonds: the ContactDynamicsEngine, or with soft contacts :class:`~.soft.measures.Measures`.
+    ``solver``: what tells of the contacts and makes bonds: the ContactDynamicsEngine, or with soft contacts
+    :class:`~.soft.measures.Measures`.
     """
 
     section: object
@@ -44,7 +50,9 @@ class Slope:
 
 
 def _walls(section, world):
-    """Adds the walls, from the crown's side on; consecutive ones that meet share their joint as pieces of one polyline do."""
+    """Adds the walls, from the crown's side on; consecutive ones that meet share their joint as pieces of one polyline
+    do.
+    """
     piece, backwards = PIECE * math.sqrt(section.disks.mean_square), section.side < 0
     ids, last = {}, None
     for wall in reversed(section.walls) if backwards else section.walls:
@@ -66,7 +74,8 @@ def hard(section) -> worlds.Hard:
     n = section.numerics
     # bonds are made where contacts are known, so these must reach further than Δ
     reach = max(REACH, 0.01 + max(m.bond_creation_distance for m in section.materials.values()))
-    # known early enough for disks that approach each other at such a speed; the fastest of the paper's slope reach 50 m/s
+    # known early enough for disks that approach each other at such a speed; the fastest of the paper's slope reach 50
+    # m/s
     speeds = scales.of(section)
     far = speeds.approach_speed * n.time_step / section.smallest
     return worlds.Hard(
@@ -80,15 +89,18 @@ def hard(section) -> worlds.Hard:
 
 
 def order_of(section, packing) -> np.ndarray:
-    """Numbers of the packing's disks in the order of their ids in the scene: along the slope, so that neighbours in space are neighbours in memory."""
+    """Numbers of the packing's disks in the order of their ids in the scene: along the slope, so that neighbours in
+    space are neighbours in memory.
+    """
     return np.argsort(packing.x * section.downslope[0] + packing.y * section.downslope[1], kind="stable")
 
 
 def build(section, packing, world=None) -> Slope:
     """Fills the (empty) scene with walls, disks and engines; the disks are at rest and nothing is bonded yet.
 
-    ``section``: a checked Section; ``packing``: a Packing whose layers are the section's; ``world``: one of :mod:`worlds`, :func:`hard` unless given.
-    Raises WorldError for what is no world, and for interfaces in one that has none.
+    ``section``: a checked Section; ``packing``: a Packing whose layers are the section's; ``world``: one of
+    :mod:`worlds`, :func:`hard` unless given. Raises WorldError for what is no world, and for interfaces in one that has
+    none.
     """
     world = hard(section) if world is None else worlds.check(world)
     O.reset()

@@ -1,11 +1,15 @@
-"""The packing of a slope: layers filled with disks and, where the section asks for it (``disks.pressed``), pressed until they carry.
+"""The packing of a slope: layers filled with disks and, where the section asks for it (``disks.pressed``), pressed
+until they carry.
 
-A packing is made just short of touching (:mod:`.packing`). Pressed, its disks are let go without any friction, of their own and of walls, and without bonds, each drawn by its
-weight along the normal of the nearest free face (:mod:`.free_surface`): so the surface stays where it is whatever its shape, the crown and the toe need no hold, and layers
-stay as flat as they were. Disks without friction come to rest in the densest places that the packing allows, as those of the laboratory's pressed samples do
-(:mod:`.laboratory.pressing`; paper, 3.2.2: the pore volume should be low). The layers are filled higher by what pressing takes, so that they have the section's thickness after it.
+A packing is made just short of touching (:mod:`.packing`). Pressed, its disks are let go without any friction, of their
+own and of walls, and without bonds, each drawn by its weight along the normal of the nearest free face
+(:mod:`.free_surface`): so the surface stays where it is whatever its shape, the crown and the toe need no hold, and
+layers stay as flat as they were. Disks without friction come to rest in the densest places that the packing allows, as
+those of the laboratory's pressed samples do (:mod:`.laboratory.pressing`; paper, 3.2.2: the pore volume should be low).
+The layers are filled higher by what pressing takes, so that they have the section's thickness after it.
 
-It ends when in a time of √(H/g), H the greatest depth, the mean depth of the mass has grown by less than :data:`CALM` of itself, after :data:`LONGEST` such times at the latest.
+It ends when in a time of √(H/g), H the greatest depth, the mean depth of the mass has grown by less than :data:`CALM`
+of itself, after :data:`LONGEST` such times at the latest.
 """
 
 from __future__ import annotations
@@ -35,7 +39,8 @@ TOLERANCE, MAX_ITERATIONS = 1e-5, 1000
 
 
 def of(section, seed: int | None = None, progress=None) -> Packing:
-    """The packing of a Section, made now or taken from the cache; one that is pressed is made in the running scene, which it empties.
+    """The packing of a Section, made now or taken from the cache; one that is pressed is made in the running scene,
+    which it empties.
 
     ``progress``: called now and then with a share done, 0 to 1. Raises what :func:`.packing.pack` raises.
     """
@@ -56,8 +61,8 @@ def of(section, seed: int | None = None, progress=None) -> Packing:
 
 
 def cache_path(section, seed: int | None = None):
-    """Where a pressed packing is kept: beside the packings. Other engines and other code press their own, so that a run has the same bits with and without
-    a cache from earlier ones."""
+    """Where a pressed packing is kept: beside the packings. Other engines and other code press their own, so that a run
+    has the same bits with and without a cache from earlier ones."""
     n = section.numerics
     key = keys.key_of(
         [section.key(), section.gravity, n.time_step, n.path, n.verlet_distance, keys.making_key(__name__)]

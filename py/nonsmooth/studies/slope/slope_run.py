@@ -12,7 +12,8 @@ __all__ = ["run"]
 
 
 def run(folder, data, end=None, figures=False, like=None):
-    """Runs the section of the plain ``data`` in the folder until it is over, or to ``end`` [s] of simulated time, and returns its summary; see experiment.begin.
+    """Runs the section of the plain ``data`` in the folder until it is over, or to ``end`` [s] of simulated time, and
+    returns its summary; see experiment.begin.
 
     ``like``: where it is packed as another one, ``data`` of that and the ``factor`` by which it is larger.
     """

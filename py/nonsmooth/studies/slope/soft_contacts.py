@@ -1,8 +1,9 @@
-"""YADE's soft contacts (springs and friction, Cundall and Strack 1979) on the disks and walls of a slope, to compare steps with.
+"""YADE's soft contacts (springs and friction, Cundall and Strack 1979) on the disks and walls of a slope, to compare
+steps with.
 
-The scene is what a YADE user would write: one FrictMat for disks and walls, Law2_ScGeom_FrictPhys_CundallStrack, half of the P-wave time step. Disks
-have the masses of spheres, as that time step supposes. The collider keeps the margin it has in the slope, but its boxes are not enlarged:
-springs need no contact that does not touch yet.
+The scene is what a YADE user would write: one FrictMat for disks and walls, Law2_ScGeom_FrictPhys_CundallStrack, half
+of the P-wave time step. Disks have the masses of spheres, as that time step supposes. The collider keeps the margin it
+has in the slope, but its boxes are not enlarged: springs need no contact that does not touch yet.
 """
 
 from __future__ import annotations

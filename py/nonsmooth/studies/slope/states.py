@@ -1,8 +1,11 @@
-"""The slope at rest, on the move, and on soft contacts, as saved scenes: made once and kept in the cache, so that every measurement begins with the same bits.
+"""The slope at rest, on the move, and on soft contacts, as saved scenes: made once and kept in the cache, so that every
+measurement begins with the same bits.
 
-Slopes are not pressed, which would take hours with a million disks and changes no cost of a step. At rest: bonded as packed, under its weight, dry, a second after the settling of a slope experiment ended. On the move: from there the wall DP loses its
-friction and the backstop FB all its strength, the water table stands at 20 m, and the slope runs until its mean speed is 5 m/s. Soft: YADE's own
-contacts in the place of the rigid ones at rest, after a second in which gaps have closed and springs have taken up the weight.
+Slopes are not pressed, which would take hours with a million disks and changes no cost of a step. At rest: bonded as
+packed, under its weight, dry, a second after the settling of a slope experiment ended. On the move: from there the wall
+DP loses its friction and the backstop FB all its strength, the water table stands at 20 m, and the slope runs until its
+mean speed is 5 m/s. Soft: YADE's own contacts in the place of the rigid ones at rest, after a second in which gaps have
+closed and springs have taken up the weight.
 """
 
 from __future__ import annotations
@@ -43,7 +46,8 @@ class BenchmarkError(UserError, RuntimeError):
 def section_of(source, disks):
     """The section ``source`` (a file, or the name of a shipped one) with about so many disks.
 
-    Raises section.SectionError where there is no room for them, BenchmarkError where it has no water or lacks a wall that is weakened.
+    Raises section.SectionError where there is no room for them, BenchmarkError where it has no water or lacks a wall
+    that is weakened.
     """
     chosen = dataclasses.replace(section.load(source), pressed=False).with_disks(disks)
     settle = dataclasses.replace(chosen.stages.settle, bond="before")
@@ -58,7 +62,9 @@ def section_of(source, disks):
 
 
 def key_of(chosen):
-    """What a saved state depends on: section, water, seed, YADE, the engines, and the code that builds and runs the scene."""
+    """What a saved state depends on: section, water, seed, YADE, the engines, and the code that builds and runs the
+    scene.
+    """
     return keys.key_of(
         {
             "section": chosen.key("settled"),

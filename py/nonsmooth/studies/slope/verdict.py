@@ -1,6 +1,7 @@
 """What became of a slope's run, in a word and a sentence, from its series and its state. Needs no YADE.
 
-The words, which stay: see :data:`MEANINGS`. What a summary, the command, a sweep's rows and figures say of a run is this.
+The words, which stay: see :data:`MEANINGS`. What a summary, the command, a sweep's rows and figures say of a run is
+this.
 """
 
 from __future__ import annotations
@@ -51,7 +52,9 @@ TITLES = {
 
 @dataclass(frozen=True)
 class Verdict:
-    """``kind``: one of :data:`MEANINGS`; ``says``: a sentence; ``before``: when it moved [s], where that was before water acted on it."""
+    """``kind``: one of :data:`MEANINGS`; ``says``: a sentence; ``before``: when it moved [s], where that was before
+    water acted on it.
+    """
 
     kind: str
     says: str
@@ -59,8 +62,8 @@ class Verdict:
 
 
 def of(series, section, state, times, disks=None) -> Verdict:
-    """The Verdict of a run. ``series``: all of its rows; ``state``: the fields of course.State as a mapping; ``times``: its characteristic times; ``disks``: how many it has,
-    where that is known."""
+    """The Verdict of a run. ``series``: all of its rows; ``state``: the fields of course.State as a mapping; ``times``:
+    its characteristic times; ``disks``: how many it has, where that is known."""
     last, over = float(series["time_s"][-1]), state["stage"] == "done"
     moved = state["failed_dry"] if state.get("failed_dry") is not None else state["moving"]
     if moved is None:
@@ -112,8 +115,8 @@ def _unmoved(series, section, state, last, over, disks):
 
 
 def _slid(series, section, state):
-    """Way of the mass's centre [m] sideways from t0 on (from its beginning, where that did not come), where it is that of a mass that does not stand, and the time [s] at which it had become so;
-    None where it is not."""
+    """Way of the mass's centre [m] sideways from t0 on (from its beginning, where that did not come), where it is that
+    of a mass that does not stand, and the time [s] at which it had become so; None where it is not."""
     since = series["time_s"] >= (state["t0"] if state["t0"] is not None else -math.inf) - 1e-9
     ways = np.abs(series["centroid_x_m"][since] - series["centroid_x_m"][since][:1])
     far = course.COLLAPSED * section.mass_size

@@ -1,6 +1,8 @@
-"""Forces on a section's walls, across its interfaces and on its obstacles, and the slip along them: a row for each in ``walls.csv``, and sums by role.
+"""Forces on a section's walls, across its interfaces and on its obstacles, and the slip along them: a row for each in
+``walls.csv``, and sums by role.
 
-Forces on walls are means over the steps since the row before; those between disks, across interfaces and on obstacles made of disks, are of the row's last step.
+Forces on walls are means over the steps since the row before; those between disks, across interfaces and on obstacles
+made of disks, are of the row's last step.
 """
 
 from __future__ import annotations
@@ -23,7 +25,9 @@ __all__ = ["Slip", "WallSeries"]
 
 
 class Slip(NamedTuple):
-    """``mean`` [m] of the disks that ``touched`` walls or interfaces, how many of them are ``weakened``; whether slip ``counts`` there."""
+    """``mean`` [m] of the disks that ``touched`` walls or interfaces, how many of them are ``weakened``; whether slip
+    ``counts`` there.
+    """
 
     mean: float
     weakened: int
@@ -32,8 +36,8 @@ class Slip(NamedTuple):
 
 
 class WallSeries:
-    """Of a built :class:`~nonsmooth.studies.slope.slope.Slope`, its disks' ``layers`` (count,); ``path``: the file; ``period``: see :class:`.wall_forces.WallForces`; ``mark``: of a
-    checkpoint."""
+    """Of a built :class:`~nonsmooth.studies.slope.slope.Slope`, its disks' ``layers`` (count,); ``path``: the file;
+    ``period``: see :class:`.wall_forces.WallForces`; ``mark``: of a checkpoint."""
 
     def __init__(self, built, layers, path, period, mark=None):
         section = built.section
@@ -65,8 +69,9 @@ class WallSeries:
                 material.forgetSlip()
 
     def take(self):
-        """Writes the rows of the time since the last call. Returns {role: (normal force, shear force where walls hold the mass back, peak of the normal force)}
-        [N/m], zero where no wall, and no interface, has that role; and the same of each slip surface, {name: …}, where some lie one above another.
+        """Writes the rows of the time since the last call. Returns {role: (normal force, shear force where walls hold
+        the mass back, peak of the normal force)} [N/m], zero where no wall, and no interface, has that role; and the
+        same of each slip surface, {name: …}, where some lie one above another.
         """
         forces = {
             name: (normal, self._side * shear, peak) for name, (normal, shear, peak) in self._forces.take().items()
@@ -95,7 +100,9 @@ class WallSeries:
         return _slip([laws[name] for name in names or self._lowest])
 
     def weakened(self):
-        """Whether the disks' slip along each wall and interface that weakens has passed D_c, as :attr:`.section.Section.weakening` has them: bool (count, number of those)."""
+        """Whether the disks' slip along each wall and interface that weakens has passed D_c, as
+        :attr:`.section.Section.weakening` has them: bool (count, number of those).
+        """
         laws, built = self._laws(), self._slope
         found = [
             tables.slip(laws[one.name], built.first_disk, built.count) >= laws[one.name].criticalSlip

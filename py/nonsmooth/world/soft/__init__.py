@@ -1,4 +1,5 @@
-"""A Contact Dynamics material as YADE's own soft contact models have it: hard against soft, with equivalent parameters::
+"""A Contact Dynamics material as YADE's own soft contact models have it: hard against soft, with equivalent
+parameters::
 
     rock = section.load("jiufengershan").materials["rock"]
     e = soft.equivalent(rock, stiffness=1e9, model="cohesion_moment", diameter=(1.0, 2.0))

@@ -32,18 +32,22 @@ MATERIALS = {"cohesion_moment": CohFrictMat, "jcfpm": JCFpmMat}
 
 
 def bond(e, ids=None, fragile=True):
-    """Bonds all pairs of disks whose gap is at most Δ ℓ (Taboada and Estrada 2009, section 2.2.2); returns how many were new.
+    """Bonds all pairs of disks whose gap is at most Δ ℓ (Taboada and Estrada 2009, section 2.2.2); returns how many
+    were new.
 
-    ``ids``: the bodies of one layer, as bonds exist within a layer only; without them all disks of the scene. Call it once for each
-    layer, after the engines are set; no step is needed before. Contacts over a gap are made, and existing ones kept with their force.
+    ``ids``: the bodies of one layer, as bonds exist within a layer only; without them all disks of the scene. Call it
+    once for each layer, after the engines are set; no step is needed before. Contacts over a gap are made, and existing
+    ones kept with their force.
 
-    YADE derives strengths of a contact from stresses times min(R)², so thresholds that are to grow with ℓ = R₁ + R₂ are set here, once,
-    contact by contact: in "cohesion_moment" normalAdhesion = F_a = σ_ext ℓ, shearAdhesion = μ_s F_a, rollingAdhesion = μ_r ℓ F_a,
-    tangensOfFrictionAngle = μ_s, maxRollPl = μ_r ℓ; in "jcfpm" FnMax = F_a, FsMax = μ_s F_a, tanFrictionAngle = μ_s. A bond over a gap
-    is born without force; one of overlapping disks bears their overlap, but in "jcfpm" only what came after the contact was made.
+    YADE derives strengths of a contact from stresses times min(R)², so thresholds that are to grow with ℓ = R₁ + R₂ are
+    set here, once, contact by contact: in "cohesion_moment" normalAdhesion = F_a = σ_ext ℓ, shearAdhesion = μ_s F_a,
+    rollingAdhesion = μ_r ℓ F_a, tangensOfFrictionAngle = μ_s, maxRollPl = μ_r ℓ; in "jcfpm" FnMax = F_a, FsMax = μ_s
+    F_a, tanFrictionAngle = μ_s. A bond over a gap is born without force; one of overlapping disks bears their overlap,
+    but in "jcfpm" only what came after the contact was made.
 
-    ``fragile``: bonds break where they reach a threshold, as YADE's laws have it. Otherwise they yield there, as in the hard law, and break when
-    they leave their ellipse, which needs :func:`~yade.nonsmooth.soft.functors.engines` with ``ductile=True``; only "cohesion_moment" has such bonds.
+    ``fragile``: bonds break where they reach a threshold, as YADE's laws have it. Otherwise they yield there, as in the
+    hard law, and break when they leave their ellipse, which needs :func:`~yade.nonsmooth.soft.functors.engines` with
+    ``ductile=True``; only "cohesion_moment" has such bonds.
 
     Raises SoftError for a model without bonds, for engines of another model, and for disks of another material.
     """
@@ -103,13 +107,14 @@ def _follower(model="cohesion_moment"):
 
 
 def bond_walls(ids=None, fragile=True):
-    """Bonds disks to walls whose material is made for it (``bondsToAll``, as ``bonded: true`` in a section file), where the gap is at most Δ ℓ;
-    returns how many were new.
+    """Bonds disks to walls whose material is made for it (``bondsToAll``, as ``bonded: true`` in a section file), where
+    the gap is at most Δ ℓ; returns how many were new.
 
-    ``ids``: of disks, default all; ``fragile`` as in :func:`bond`. Call it after the engines are set. A bond over a gap is born without force.
+    ``ids``: of disks, default all; ``fragile`` as in :func:`bond`. Call it after the engines are set. A bond over a gap
+    is born without force.
 
-    Raises SoftError for ductile bonds (``fragile=False``) without a BondEllipseEngine in O.engines, for an Arc of such a material, and where the engines make other contacts with
-    walls than WallPhys.
+    Raises SoftError for ductile bonds (``fragile=False``) without a BondEllipseEngine in O.engines, for an Arc of such
+    a material, and where the engines make other contacts with walls than WallPhys.
     """
     disks = [b for b in O.bodies if isinstance(b.shape, Sphere)] if ids is None else [O.bodies[k] for k in ids]
     centres, radii = np.array([b.state.pos for b in disks]).reshape(-1, 3)[:, :2], np.array(
@@ -160,7 +165,9 @@ def bond_walls(ids=None, fragile=True):
 
 
 def _functor(e):
-    """The functor that makes bonds of CohFrictPhys, None in "jcfpm"; SoftError where the engines are not those of the model."""
+    """The functor that makes bonds of CohFrictPhys, None in "jcfpm"; SoftError where the engines are not those of the
+    model.
+    """
     functors = [
         f for engine in O.engines if isinstance(engine, InteractionLoop) for f in engine.physDispatcher.functors
     ]
@@ -198,10 +205,12 @@ def bonded(physics):
 
 
 def weaken(contacts=None):
-    """Gives contacts of disks that are not bonded the residual friction of their materials, and the arm μ_r ℓ, ℓ = R₁ + R₂.
+    """Gives contacts of disks that are not bonded the residual friction of their materials, and the arm μ_r ℓ, ℓ = R₁ +
+    R₂.
 
-    YADE keeps the peak values of a contact whose bond broke, and gives new contacts the arm 2 μ_r min(R). The weaker of the two
-    materials' values holds, as in the hard law. ``contacts``: interactions to look at, without them all; :func:`~yade.nonsmooth.soft.functors.engines` calls it now and then.
+    YADE keeps the peak values of a contact whose bond broke, and gives new contacts the arm 2 μ_r min(R). The weaker of
+    the two materials' values holds, as in the hard law. ``contacts``: interactions to look at, without them all;
+    :func:`~yade.nonsmooth.soft.functors.engines` calls it now and then.
     """
     for i in O.interactions if contacts is None else contacts:
         p = i.phys if i.isReal else None

@@ -22,7 +22,8 @@ _BONDED = (
     "threshold; the energy of a break is smaller",
     "softening by steps: a contact keeps the peak friction of its broken bond until soft.weaken() is called",
 )
-#: Attributes of the disks' material: what they are, unit, in the hard law. JCFpmMat.frictionAngle is that of a bond, see :func:`describe`.
+#: Attributes of the disks' material: what they are, unit, in the hard law. JCFpmMat.frictionAngle is that of a bond,
+#: see :func:`describe`.
 _ATTRIBUTES = {
     "density": ("density", "kg/m³", "ρ"),
     "young": ("Young's modulus", "Pa", "rigid"),
@@ -61,7 +62,9 @@ _LOST = {
 
 
 class Description(NamedTuple):
-    """``rows``: (what, in YADE, value, in the hard law), texts; ``lost``: sentences. As a string, both as plain text."""
+    """``rows``: (what, in YADE, value, in the hard law), texts; ``lost``: sentences. As a string, both as plain
+    text.
+    """
 
     rows: tuple[tuple[str, str, str, str], ...]
     lost: tuple[str, ...]
@@ -73,9 +76,11 @@ class Description(NamedTuple):
 
 
 def describe(e: Equivalent) -> Description:
-    """Parameters at the mean diameter, for a contact of two equal disks, with those of the hard law beside them; and what is lost.
+    """Parameters at the mean diameter, for a contact of two equal disks, with those of the hard law beside them; and
+    what is lost.
 
-    Every attribute that :func:`~yade.nonsmooth.soft.functors.material` sets has a row; YADE's angles are in rad, the law's friction is a coefficient.
+    Every attribute that :func:`~yade.nonsmooth.soft.functors.material` sets has a row; YADE's angles are in rad, the
+    law's friction is a coefficient.
     """
     m, length = e.material, e.length
     kn, ks, kr = e.stiffnesses(0.5 * length, 0.5 * length)

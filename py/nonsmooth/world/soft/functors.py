@@ -40,11 +40,13 @@ __all__ = ["engines", "engines_of", "material", "wall_material"]
 
 
 def material(e, **others):
-    """The material of disks for the :class:`~yade.nonsmooth.soft.Equivalent` ``e``, not yet in the scene; ``others``: further attributes.
+    """The material of disks for the :class:`~yade.nonsmooth.soft.Equivalent` ``e``, not yet in the scene; ``others``:
+    further attributes.
 
-    Its values are those of :meth:`~yade.nonsmooth.soft.Equivalent.attributes`. It rules contacts that are not bonded: its friction is the residual
-    one. Its strengths give the bond's thresholds at the mean diameter. At other diameters they do not, since YADE multiplies by min(R)² and the
-    law by ℓ; :func:`~yade.nonsmooth.soft.bonds.bond` sets each contact.
+    Its values are those of :meth:`~yade.nonsmooth.soft.Equivalent.attributes`. It rules contacts that are not bonded:
+    its friction is the residual one. Its strengths give the bond's thresholds at the mean diameter. At other diameters
+    they do not, since YADE multiplies by min(R)² and the law by ℓ; :func:`~yade.nonsmooth.soft.bonds.bond` sets each
+    contact.
     """
     kind = {"cohesion_moment": CohFrictMat, "jcfpm": JCFpmMat, "friction": FrictMat}[e.model]
     return kind(**{**e.attributes(), **others})
@@ -53,8 +55,8 @@ def material(e, **others):
 def wall_material(e, wall, **others):
     """The material of walls, for every model; not yet in the scene.
 
-    ``wall``: the section.Material of the wall, whose strengths alone rule as in the hard law, slip weakening included; or a coefficient
-    of friction [-], for a wall without cohesion and rolling resistance.
+    ``wall``: the section.Material of the wall, whose strengths alone rule as in the hard law, slip weakening included;
+    or a coefficient of friction [-], for a wall without cohesion and rolling resistance.
     """
     options = dict(young=e.young, poisson=e.shear_ratio)
     if isinstance(wall, Material):
@@ -66,23 +68,27 @@ def wall_material(e, wall, **others):
 
 
 def engines(e, **options):
-    """:func:`engines_of` the model and the damping of an :class:`~yade.nonsmooth.soft.Equivalent`, with its ``options``."""
+    """:func:`engines_of` the model and the damping of an :class:`~yade.nonsmooth.soft.Equivalent`, with its
+    ``options``.
+    """
     return engines_of(e.model, e.damping, **{**dict(rolling_ratio=e.rolling_ratio or 1.0), **options})
 
 
 def engines_of(
     model, damping, rolling_ratio=1.0, gravity=(0, -9.81, 0), verlet=0.1, before=(), after=(), every=200, ductile=False
 ):
-    """The list O.engines of a simulation with soft contacts; the scene's time step is the caller's, below ``Equivalent.step_limit``.
+    """The list O.engines of a simulation with soft contacts; the scene's time step is the caller's, below
+    ``Equivalent.step_limit``.
 
-    ``rolling_ratio``: of walls' contacts, k_r/(k_s R²). ``gravity`` [m/s²], ``verlet``, ``before``, ``after`` as :func:`yade.nonsmooth.scene.engines` has them. There is no ``reach``:
-    springs act once disks overlap, and bonds over a gap are made by :func:`~yade.nonsmooth.soft.bonds.bond`. ``every``: steps after
-    which contacts whose bond broke get the residual strengths (:func:`~yade.nonsmooth.soft.bonds.weaken`). ``ductile``: with the engine that bonds need
+    ``rolling_ratio``: of walls' contacts, k_r/(k_s R²). ``gravity`` [m/s²], ``verlet``, ``before``, ``after`` as
+    :func:`yade.nonsmooth.scene.engines` has them. There is no ``reach``: springs act once disks overlap, and bonds over
+    a gap are made by :func:`~yade.nonsmooth.soft.bonds.bond`. ``every``: steps after which contacts whose bond broke
+    get the residual strengths (:func:`~yade.nonsmooth.soft.bonds.weaken`). ``ductile``: with the engine that bonds need
     which yield instead of breaking at once.
 
-    Disks touch Segment and Arc walls through WallPhys in all models, so walls take :func:`wall_material`. A material of the disks' kind will not do:
-    CohesionMoment needs rotations that a Segment's geometry has not (it is a ScGeom, not a ScGeom6D, and YADE does not check), and JCFpm
-    needs a JCFpmState on both bodies.
+    Disks touch Segment and Arc walls through WallPhys in all models, so walls take :func:`wall_material`. A material of
+    the disks' kind will not do: CohesionMoment needs rotations that a Segment's geometry has not (it is a ScGeom, not a
+    ScGeom6D, and YADE does not check), and JCFpm needs a JCFpmState on both bodies.
     """
     geometry = Ig2_Sphere_Sphere_ScGeom6D() if model == "cohesion_moment" else Ig2_Sphere_Sphere_ScGeom()
     own = {
@@ -110,7 +116,8 @@ def engines_of(
             [*laws, Law2_ScGeom_FrictPhys_CundallStrack(), Law2_SegmentGeom_WallPhys_SlipWeakening()],
         ),
         *before,
-        # weight is damped too, YADE's default: with forces of contacts damped alone, a disk on a wall never comes to rest
+        # weight is damped too, YADE's default: with forces of contacts damped alone, a disk on a wall never comes to
+        # rest
         NewtonIntegrator(damping=damping, gravity=gravity),
         *([BondEllipseEngine(label="softBonds")] if ductile else []),
         *([residual] if laws else []),

@@ -1,4 +1,6 @@
-"""What soft contacts tell of a scene, under the names that ContactDynamicsEngine has for it, so that one course of an experiment serves both."""
+"""What soft contacts tell of a scene, under the names that ContactDynamicsEngine has for it, so that one course of an
+experiment serves both.
+"""
 
 from __future__ import annotations
 
@@ -12,7 +14,8 @@ from .bonds import bonded, weaken
 
 __all__ = ["Measures"]
 
-#: A bond that was further from all of its thresholds than this share when it was last looked at counts as broken in "mixed" mode: it is not known how.
+#: A bond that was further from all of its thresholds than this share when it was last looked at counts as broken in
+#: "mixed" mode: it is not known how.
 LEAST_SHARE = 0.5
 TENSION, SHEAR, TORQUE, MIXED = (tables.BREAK_MODES.index(name) for name in ("tension", "shear", "torque", "mixed"))
 
@@ -24,12 +27,14 @@ def _seen(name):
 class Measures:
     """Speeds, contacts, overlaps and broken bonds of a scene with soft contacts.
 
-    ``world``: the :class:`yade.nonsmooth.worlds.Soft`; ``groups``: pairs (section.Material, ids of its disks), as :meth:`~yade.nonsmooth.worlds.Soft.bond`
-    takes them. Make it once O.engines are set. Attributes have the names, units and meaning of ContactDynamicsEngine's; what follows from the state of
-    the disks is that at the end of the last step. Overlaps are in units of the mean diameter of the pair, or of the disk's at a wall; ``contacts`` touch or bear a force.
+    ``world``: the :class:`yade.nonsmooth.worlds.Soft`; ``groups``: pairs (section.Material, ids of its disks), as
+    :meth:`~yade.nonsmooth.worlds.Soft.bond` takes them. Make it once O.engines are set. Attributes have the names,
+    units and meaning of ContactDynamicsEngine's; what follows from the state of the disks is that at the end of the
+    last step. Overlaps are in units of the mean diameter of the pair, or of the disk's at a wall; ``contacts`` touch or
+    bear a force.
 
-    YADE does not tell how a bond broke. Here it is the threshold that the bond was nearest to when :meth:`look` last saw it whole, so look often; a bond that
-    used less than :data:`LEAST_SHARE` of each is counted in ``brokenMixed``.
+    YADE does not tell how a bond broke. Here it is the threshold that the bond was nearest to when :meth:`look` last
+    saw it whole, so look often; a bond that used less than :data:`LEAST_SHARE` of each is counted in ``brokenMixed``.
     """
 
     def __init__(self, world, groups=()):
@@ -56,9 +61,11 @@ class Measures:
         """Nothing to forget: no energies are summed up here."""
 
     def look(self):
-        """Looks at all contacts: which bonds broke since the last look, and how. Contacts without a bond get their residual strengths.
+        """Looks at all contacts: which bonds broke since the last look, and how. Contacts without a bond get their
+        residual strengths.
 
-        Once a step at most; whoever asks for contacts, overlaps or bonds makes it look. Returns what it found by the names of the attributes.
+        Once a step at most; whoever asks for contacts, overlaps or bonds makes it look. Returns what it found by the
+        names of the attributes.
         """
         if self._looked == O.iter:
             return self._found

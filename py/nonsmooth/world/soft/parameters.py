@@ -1,7 +1,7 @@
 """Parameters of a soft contact model that stands for a Contact Dynamics material.
 
-Formulae of YADE's models are those of its sources, version 2025.2.0: ``FrictPhys.cpp``, ``CohesiveFrictionalContactLaw.cpp``,
-``JointedCohesiveFrictionalPM.cpp``, ``NewtonIntegrator.cpp``.
+Formulae of YADE's models are those of its sources, version 2025.2.0: ``FrictPhys.cpp``,
+``CohesiveFrictionalContactLaw.cpp``, ``JointedCohesiveFrictionalPM.cpp``, ``NewtonIntegrator.cpp``.
 """
 
 from __future__ import annotations
@@ -33,8 +33,8 @@ class Equivalent:
 
     ``material``: the section.Material that it stands for (Taboada and Estrada 2009, section 2.2).
     ``model``: one of :data:`MODELS`.
-    ``young``: FrictMat.young E [Pa]. ``shear_ratio``: FrictMat.poisson, which in YADE is k_s/k_n [-]. ``rolling_ratio``:
-    CohFrictMat.alphaKr, k_r/(k_s R₁ R₂) [-]; 0 in models without moments.
+    ``young``: FrictMat.young E [Pa]. ``shear_ratio``: FrictMat.poisson, which in YADE is k_s/k_n [-].
+    ``rolling_ratio``: CohFrictMat.alphaKr, k_r/(k_s R₁ R₂) [-]; 0 in models without moments.
     ``damping``: NewtonIntegrator.damping λ [-], non-viscous: a part of each component of the force that always brakes.
     ``diameters``: smallest and largest [m]. ``contacts``: most contacts of a disk that ``step_limit`` reckons with.
     ``step_limit``: largest stable time step [s], see :func:`equivalent`.
@@ -73,10 +73,11 @@ class Equivalent:
         return kn, ks, self.rolling_ratio * ks * radius1 * radius2
 
     def thresholds(self, length: float, normal: float = 0.0) -> tuple[float, float, float]:
-        """Greatest tension and shear force [N] and torque [N m] of a bond: F_a = σ_ext ℓ, μ_s (F_a + N), μ_r ℓ (F_a + N).
+        """Greatest tension and shear force [N] and torque [N m] of a bond: F_a = σ_ext ℓ, μ_s (F_a + N), μ_r ℓ (F_a +
+        N).
 
-        ``length``: ℓ [m]; ``normal``: N [N], compression positive (Taboada and Estrada 2009, eqs 2, 4 and 6). What the model has
-        not is 0: the torque in "jcfpm", and all but friction in "friction", which has the residual value.
+        ``length``: ℓ [m]; ``normal``: N [N], compression positive (Taboada and Estrada 2009, eqs 2, 4 and 6). What the
+        model has not is 0: the torque in "jcfpm", and all but friction in "friction", which has the residual value.
         """
         m = self.material
         if self.model == "friction":
@@ -86,11 +87,12 @@ class Equivalent:
         return tension, m.friction * held, m.rolling_friction * length * held if self.model in ROLLING_MODELS else 0.0
 
     def attributes(self) -> dict:
-        """{name: value} of the disks' material in YADE (CohFrictMat, JCFpmMat or FrictMat), in its units: rad, Pa, kg/m³, bool, else [-].
+        """{name: value} of the disks' material in YADE (CohFrictMat, JCFpmMat or FrictMat), in its units: rad, Pa,
+        kg/m³, bool, else [-].
 
-        It rules contacts that are not bonded, so frictionAngle is the arc tangent of the residual friction; a JCFpmMat has both angles. Strengths are
-        such that YADE's own formulae give the bond's thresholds at the mean diameter, normalCohesion = σ_ext ℓ/R² and tensileStrength =
-        σ_ext ℓ/(π R²) with R = ℓ/2.
+        It rules contacts that are not bonded, so frictionAngle is the arc tangent of the residual friction; a JCFpmMat
+        has both angles. Strengths are such that YADE's own formulae give the bond's thresholds at the mean diameter,
+        normalCohesion = σ_ext ℓ/R² and tensileStrength = σ_ext ℓ/(π R²) with R = ℓ/2.
         """
         m = self.material
         values = dict(
@@ -141,15 +143,17 @@ def equivalent(
 ) -> Equivalent:
     """The soft model that stands for ``material``.
 
-    ``stiffness``: Young's modulus E [Pa]; YADE makes k_n = E R [N/m] of it for disks of radius R, see :meth:`Equivalent.stiffnesses`.
-    Rigid disks have none, so it is free: high enough that F_a/k_n is small beside the ellipse's half-axis ε_n ℓ.
-    ``diameter``: of the disks [m], one number or (smallest, largest). The other arguments are fields of :class:`Equivalent`;
-    ``shear_ratio``, ``rolling_ratio`` and ``damping`` have no counterpart in the hard law and are choices (0.2 is YADE's own).
+    ``stiffness``: Young's modulus E [Pa]; YADE makes k_n = E R [N/m] of it for disks of radius R, see
+    :meth:`Equivalent.stiffnesses`. Rigid disks have none, so it is free: high enough that F_a/k_n is small beside the
+    ellipse's half-axis ε_n ℓ. ``diameter``: of the disks [m], one number or (smallest, largest). The other arguments
+    are fields of :class:`Equivalent`; ``shear_ratio``, ``rolling_ratio`` and ``damping`` have no counterpart in the
+    hard law and are choices (0.2 is YADE's own).
 
-    The step's limit is 2/ω, with ω² = z λ: λ is the largest eigenvalue of one contact between two free disks that have mass ρ π R²
-    and inertia m R²/2, and z the ``contacts`` of a disk. An assembly vibrates no faster, since z equal parts of a disk's mass may be
-    given to its contacts (the largest eigenvalue of a sum is at most that of its parts). The pair is two of the smallest disks, or the
-    smallest and the largest. Disks of one size have six neighbours at most; more of them touch a disk much larger than they are.
+    The step's limit is 2/ω, with ω² = z λ: λ is the largest eigenvalue of one contact between two free disks that have
+    mass ρ π R² and inertia m R²/2, and z the ``contacts`` of a disk. An assembly vibrates no faster, since z equal
+    parts of a disk's mass may be given to its contacts (the largest eigenvalue of a sum is at most that of its parts).
+    The pair is two of the smallest disks, or the smallest and the largest. Disks of one size have six neighbours at
+    most; more of them touch a disk much larger than they are.
 
     Raises SoftError for a value that cannot be used.
     """
@@ -196,7 +200,9 @@ def equivalent(
 
 
 def _greatest_square(e: Equivalent, radius1: float, radius2: float) -> float:
-    """Largest ω² [1/s²] of two free disks in contact; freedoms x, y and angle of the one, then of the other, normal along x."""
+    """Largest ω² [1/s²] of two free disks in contact; freedoms x, y and angle of the one, then of the other, normal
+    along x.
+    """
     rows = np.array([[-1, 0, 0, 1, 0, 0], [0, -1, -radius1, 0, 1, -radius2], [0, 0, -1, 0, 0, 1]], float)
     masses = np.repeat([e.material.density * math.pi * r**2 for r in (radius1, radius2)], 3)
     masses[[2, 5]] *= 0.5 * np.square([radius1, radius2])

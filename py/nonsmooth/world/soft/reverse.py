@@ -19,13 +19,15 @@ def material_of(
 ) -> Material:
     """The section.Material whose bonds have the thresholds of ``soft``.
 
-    ``soft``: an interaction that is a CohFrictPhys bond, with ℓ of its geometry; or a CohFrictMat, JCFpmMat or FrictMat, then for two disks
-    of ``diameter`` [m], and with another one σ_ext is another, as YADE's thresholds go with min(R)² and the law's with ℓ.
-    ``residual``: a material for what a bond does not tell (residual strengths, ellipse, density); else residual values are the peak ones.
+    ``soft``: an interaction that is a CohFrictPhys bond, with ℓ of its geometry; or a CohFrictMat, JCFpmMat or
+    FrictMat, then for two disks of ``diameter`` [m], and with another one σ_ext is another, as YADE's thresholds go
+    with min(R)² and the law's with ℓ. ``residual``: a material for what a bond does not tell (residual strengths,
+    ellipse, density); else residual values are the peak ones.
 
-    The inverse of YADE's formulae with R = ℓ/2, where C_n is normalCohesion: F_a = C_n R², its shear part C_s R², and its rolling part ¼ C_n
-    R³. The law has one F_a in all three thresholds (Taboada and Estrada 2009, eqs 2, 4 and 6), so a counterpart exists if C_s = μ_s C_n and,
-    with moments, if the rolling part is F_a times the arm η R: for YADE's own ¼ C_n R³ if η is ¼. In JCFpm π R² stands for R².
+    The inverse of YADE's formulae with R = ℓ/2, where C_n is normalCohesion: F_a = C_n R², its shear part C_s R², and
+    its rolling part ¼ C_n R³. The law has one F_a in all three thresholds (Taboada and Estrada 2009, eqs 2, 4 and 6),
+    so a counterpart exists if C_s = μ_s C_n and, with moments, if the rolling part is F_a times the arm η R: for YADE's
+    own ¼ C_n R³ if η is ¼. In JCFpm π R² stands for R².
 
     Raises SoftError where there is none, naming the attribute and its value.
     """
@@ -126,7 +128,9 @@ def _frict(mat, diameter):
 
 
 def _from_thresholds(tension, shear, torque, friction, arm, length, names):
-    """Values of a Material from thresholds at N = 0 [N, N, N m], the coefficient of friction and the arm of rolling [m]."""
+    """Values of a Material from thresholds at N = 0 [N, N, N m], the coefficient of friction and the arm of rolling
+    [m].
+    """
     for name, found, factor, key in (
         (names[1], shear, friction, "the coefficient of friction"),
         (names[2], torque, arm, names[3]),

@@ -1,4 +1,6 @@
-"""Hard against soft, run: tiny slopes and a column in both worlds, a resume that keeps what has finished, and the command."""
+"""Hard against soft, run: tiny slopes and a column in both worlds, a resume that keeps what has finished, and the
+command.
+"""
 
 import dataclasses
 import html
@@ -207,14 +209,17 @@ def test_a_column_in_both_worlds(tmp_path):
         found[case.world] = collapses.COLUMN.measure(
             case, folder, collapses.run_column(folder, **dataclasses.asdict(case))
         )
-    # so few grains scatter by more than half; a column that does not spread, or flies apart, is out by far more than a factor of three
+    # so few grains scatter by more than half; a column that does not spread, or flies apart, is out by far more than a
+    # factor of three
     assert 1 / 3 < found["hard"].values["front_travel_m"] / found["soft"].values["front_travel_m"] < 3
     assert found["soft"].overlap > 1e-4 > found["hard"].overlap
     assert len(found["hard"].forces) > 30 and len(found["soft"].forces) > 30
 
 
 def test_a_collapse_is_measured_from_its_records(tmp_path):
-    """The front goes 3 m, the centre of mass 3 m and 4 m; it moves while its energy is above a hundredth of the largest."""
+    """The front goes 3 m, the centre of mass 3 m and 4 m; it moves while its energy is above a hundredth of the
+    largest.
+    """
     series = {
         "time_s": [0.0, 1.0, 2.0, 3.0],
         "front_m": [2.0, 3.0, 4.0, 5.0],
@@ -304,7 +309,8 @@ def test_a_biaxial_test_in_both_worlds(sheared):
     mean = {name: series[name][late].mean() for name in series if name.startswith("sigma")}
     # what presses is 1 MPa: the wall's own inertia is a thousandth
     assert mean["sigma3_right_Pa"] == pytest.approx(1e6, rel=3e-3)
-    # damping holds disks back that go outwards, and so the wall that stands bears more: 3.4 % at this rate, 1.8 % at half of it; nothing with a membrane on both sides
+    # damping holds disks back that go outwards, and so the wall that stands bears more: 3.4 % at this rate, 1.8 % at
+    # half of it; nothing with a membrane on both sides
     assert mean["sigma3_left_Pa"] == pytest.approx(1e6, rel=0.05 if rigid else 3e-3)
     # 1.5 and 1.7 % for the same reason
     assert mean["sigma1_top_Pa"] == pytest.approx(mean["sigma1_bottom_Pa"], rel=0.03)
@@ -322,7 +328,9 @@ def test_a_biaxial_test_in_both_worlds(sheared):
 
 
 def test_both_worlds_have_the_same_strength_on_the_mean(tmp_path_factory):
-    """Four samples of 150 disks, with rigid and with flexible sides: where one of them fails is its own, what all bear is not."""
+    """Four samples of 150 disks, with rigid and with flexible sides: where one of them fails is its own, what all bear
+    is not.
+    """
     ratios = []
     for sides in ("rigid", "flexible"):
         for seed in (1, 2, 3, 4):

@@ -50,7 +50,9 @@ def test_numerics_of_a_hard_run_are_multiples_of_the_sections(step, tolerance):
 
 
 def test_walls_without_strength_hold_nothing():
-    """Neither before nor after they have slipped, and no bonds; other walls stay, and so does the distance after which these weaken."""
+    """Neither before nor after they have slipped, and no bonds; other walls stay, and so does the distance after which
+    these weaken.
+    """
     shipped = section.load("jiufengershan")
     made = cost._without_strength(shipped, {"DP", "FB"})
     for wall, before in zip(made.walls, shipped.walls):
@@ -80,7 +82,9 @@ def test_captions_name_the_packing_of_which_all_stiffnesses_are_shown(monkeypatc
 
 # ---- deposits -------------------------------------------------------------------------------------
 def test_the_outline_of_one_disk_has_sixteen_corners():
-    """Drawn on a circle wider by the mean radius, and taken in by as much: a regular polygon whose sides are that much nearer to the centre."""
+    """Drawn on a circle wider by the mean radius, and taken in by as much: a regular polygon whose sides are that much
+    nearer to the centre.
+    """
     (r,) = radius = np.array([2.0])
     inner = 2 * r * math.cos(math.pi / 16) - r
     outline = deposits.outline(np.array([5.0]), np.array([-1.0]), radius)
@@ -89,7 +93,9 @@ def test_the_outline_of_one_disk_has_sixteen_corners():
 
 
 def test_overlap_of_deposits():
-    """Two rectangles of disks, shifted by a third of their length: they share two thirds, so half of what either covers."""
+    """Two rectangles of disks, shifted by a third of their length: they share two thirds, so half of what either
+    covers.
+    """
     x, y = (v.ravel().astype(float) for v in np.meshgrid(np.arange(60), np.arange(6)))
     r = np.full(x.size, 0.5)
     one, shifted, away = (deposits.outline(x + d, y, r) for d in (0, 20, 200))
@@ -100,13 +106,16 @@ def test_overlap_of_deposits():
         deposits.common_area(one, shifted) == pytest.approx(2 / 3 * one.area, rel=0.01)
         and deposits.common_area(one, away) == 0
     )
-    # 60 by 6 with pores closed; dents between disks along the rim, and circles drawn with 16 corners, take some per cent
+    # 60 by 6 with pores closed; dents between disks along the rim, and circles drawn with 16 corners, take some per
+    # cent
     assert one.area == pytest.approx(360, rel=0.05)
 
 
 # ---- errors, work, rates --------------------------------------------------------------------------
 def outcome(front, seed=1, water=10.0, world="hard", wall=10.0, **case):
-    """An Outcome whose front moves linearly to ``front`` in 10 s and whose deposit is a row of disks from 0 to ``front``."""
+    """An Outcome whose front moves linearly to ``front`` in 10 s and whose deposit is a row of disks from 0 to
+    ``front``.
+    """
     t = np.linspace(0, 10, 101)
     x = np.arange(0, front + 0.1)
     return Outcome(
@@ -226,7 +235,8 @@ def test_difference_and_scatter_over_seeds():
     assert found["agree"] is True
     assert summary.estimate([10.0, 10.1], [12.0, 12.1])["agree"] is False
     assert summary.estimate([10.0], [12.0])["agree"] is None
-    # by hand: 0.7 ± 12.706 · 0.2 spans the scatter and zero; 0.2 ± 0.041 leaves zero out and is small beside the scatter of 1.0
+    # by hand: 0.7 ± 12.706 · 0.2 spans the scatter and zero; 0.2 ± 0.041 leaves zero out and is small beside the
+    # scatter of 1.0
     assert summary.estimate([10.0, 11.0], [10.5, 11.9])["agree"] is None
     assert summary.estimate([10.0, 11.0, 12.0], [10.2, 11.2, 12.2 + 1e-9])["agree"] is True
     # the seed without a failure is left out
@@ -234,7 +244,9 @@ def test_difference_and_scatter_over_seeds():
 
 
 def test_cost_at_equal_overlap():
-    """Overlaps as 1/E and costs as √E: a hundredth of the softest's overlap takes a hundred times E, so ten times its cost."""
+    """Overlaps as 1/E and costs as √E: a hundredth of the softest's overlap takes a hundred times E, so ten times its
+    cost.
+    """
     soft = [
         {
             "stiffness_Pa": e,
@@ -493,7 +505,9 @@ def test_every_experiment_says_what_its_overlap_is():
 
 
 def test_the_report_of_a_biaxial_test(tmp_path, monkeypatch):
-    """Made-up tests: overlaps are told as they were taken, the mean speed is drawn, and the run with fragile bonds is marked."""
+    """Made-up tests: overlaps are told as they were taken, the mean speed is drawn, and the run with fragile bonds is
+    marked.
+    """
     made = cases.plan("wwr", 100, [1, 2], [1e8, 1e9], damping_moving=None, bonds_run=True)
     strain = np.linspace(0, 0.06, 50)
     outcomes = {}
@@ -562,7 +576,9 @@ def test_the_overlap_of_a_snapshot_is_of_pairs_of_disks():
 
 
 def test_the_limit_of_stiffness_is_that_of_the_heap():
-    """What passes before anything runs stands later; and what is refused is not far below: disks settle by some per cent of the box."""
+    """What passes before anything runs stands later; and what is refused is not far below: disks settle by some per
+    cent of the box.
+    """
     from yade.nonsmooth.heaps import column, course as heap_course, grains
 
     heap, least = column.Column(disks=100, aspect=1.0), collapses.COLUMN.least_stiffness(

@@ -66,7 +66,9 @@ def test_a_mean_and_its_deviation_have_one_unit(mean, sd, unit, text):
 def quantity(
     agree, hard=(9.0, 10.0, 11.0), soft=(9.0, 11.0, 10.0), means="the water table at failure", unit="m", **other
 ):
-    """A quantity of a summary: 10 ± 1 hard, 10.5 ± 2 soft, a difference of 0.5 ± 0.25 and a scatter of 1.5, in ``unit``; ``hard`` and ``soft``: a value a seed."""
+    """A quantity of a summary: 10 ± 1 hard, 10.5 ± 2 soft, a difference of 0.5 ± 0.25 and a scatter of 1.5, in
+    ``unit``; ``hard`` and ``soft``: a value a seed.
+    """
     return {
         "means": means,
         "unit": unit,

@@ -29,7 +29,9 @@ def test_a_summary_is_what_json_can_hold():
 
 # ---- a slope's run ----------------------------------------------------------------------------------
 def measured(folder, monkeypatch, section=known_slope.SHIPPED, **state):
-    """The Outcome of the known run, which took 1000 s of wall time for 49,999 steps, 400 s of them for 60 s of motion."""
+    """The Outcome of the known run, which took 1000 s of wall time for 49,999 steps, 400 s of them for 60 s of
+    motion.
+    """
     monkeypatch.setattr(slopes, "section_of", lambda case: section)
     state = known_slope.STATE | {"wall_steps_s": 1000.0, "wall_moving_s": 400.0, "moving_s": 60.0} | state
     return slopes.measure(
@@ -65,7 +67,8 @@ def test_a_slope_is_measured_as_its_summary_has_it(tmp_path, monkeypatch):
     assert (at("front", -10.0), at("front", 29.5), at("front", 69.0)) == pytest.approx((0.0, 1100.0, 1000.5)) and at(
         "centroid", 57.5 - 30.5
     ) == pytest.approx(125.0, rel=SAME)
-    # of the second before t0; and of the rows above a tenth of the largest speed, 33.0 to 82.2 s but for a second in between, one of them with 0.004
+    # of the second before t0; and of the rows above a tenth of the largest speed, 33.0 to 82.2 s but for a second in
+    # between, one of them with 0.004
     assert found.overlap_rest == pytest.approx(0.001, rel=SAME) and found.overlap == pytest.approx(
         0.002 + 0.002 / 482, rel=SAME
     )
@@ -81,7 +84,9 @@ def test_a_slope_is_measured_as_its_summary_has_it(tmp_path, monkeypatch):
 
 @pytest.mark.parametrize("failed_dry", [None, 3.0])
 def test_a_slope_to_the_left_has_the_numbers_of_its_mirror(tmp_path, monkeypatch, failed_dry):
-    """Of the same run with x of the other sign: each value and each curve to the last bit, since signs are all that changes."""
+    """Of the same run with x of the other sign: each value and each curve to the last bit, since signs are all that
+    changes.
+    """
     for side in ("left", "right"):
         (tmp_path / side).mkdir()
     right = measured(known_slope.write(tmp_path / "right"), monkeypatch, failed_dry=failed_dry)
@@ -111,7 +116,8 @@ def test_slopes_that_do_not_fail_by_water_are_told(tmp_path, monkeypatch):
         and stood.cost.rate == 10.0
         and stood.curves["abscissa"][0] == 0
     )
-    # stopped before the water began to rise: the clock begins with the first row after settling, that of 5.1 s, and ends with that of 100 s
+    # stopped before the water began to rise: the clock begins with the first row after settling, that of 5.1 s, and
+    # ends with that of 100 s
     early = measured(tmp_path, monkeypatch, moving=None, t0=None, moving_s=0.0).curves["abscissa"]
     assert (early[0], early[-1]) == pytest.approx((0.0, 94.9), abs=1e-9)
     short = {name: values[:700] for name, values in known_slope.series().items()}
@@ -127,7 +133,9 @@ def test_forces_are_those_under_compression():
 
 # ---- forces at contacts -----------------------------------------------------------------------------
 def test_forces_that_differ_by_a_share():
-    """All a tenth larger: rms of a tenth of √⟨N²⟩ over ⟨N⟩; turned about their mean: no correlation but the opposite."""
+    """All a tenth larger: rms of a tenth of √⟨N²⟩ over ⟨N⟩; turned about their mean: no correlation but the
+    opposite.
+    """
     one = {(0, k): float(k) for k in range(1, 6)}
     rms, correlation = precision.force_difference({pair: 1.1 * value for pair, value in one.items()}, one)
     assert rms == pytest.approx(0.1 * math.sqrt(11) / 3, rel=SAME) and correlation == pytest.approx(1.0, rel=SAME)
@@ -155,7 +163,9 @@ WATER = {1: 10.0, 2: 12.0, 3: 14.0}
 
 
 def made_up(case):
-    """An Outcome. Hard: numerics move the front by a hundredth of the step's factor less one. Soft: a tenth of √(10⁸ Pa/E) further, at a water table 1 m higher."""
+    """An Outcome. Hard: numerics move the front by a hundredth of the step's factor less one. Soft: a tenth of √(10⁸
+    Pa/E) further, at a water table 1 m higher.
+    """
     soft = case.world == "soft"
     share = 1 + 0.1 * math.sqrt(1e8 / case.stiffness) if soft else 1 + 0.01 * (case.step - 1)
     front, t = share * FRONTS[case.seed], np.linspace(0, 10, 101)
@@ -204,7 +214,8 @@ def test_means_differences_and_scatter(told):
     assert (front["hard"]["mean"], front["soft"]["mean"]) == pytest.approx((105.0, 115.5), rel=SAME) and front["hard"][
         "sd"
     ] == pytest.approx(math.sqrt(31), rel=SAME)
-    # soft over hard: a tenth of 100, 104 and 111, whose standard deviation is √0.31; Student's t for two degrees of freedom
+    # soft over hard: a tenth of 100, 104 and 111, whose standard deviation is √0.31; Student's t for two degrees of
+    # freedom
     assert front["difference"] == pytest.approx(10.5, rel=SAME) and front["difference_95"] == pytest.approx(
         4.30265 * math.sqrt(0.31 / 3), rel=1e-5
     )
@@ -271,7 +282,9 @@ def test_differences_fall_with_the_stiffness_as_they_were_made(told):
 
 
 def test_costs_at_equal_overlap_and_at_a_rocks_stiffness(told):
-    """10⁴/E is 0.001 at 10⁷ Pa, between two runs: a step there is √0.1 of that of 10⁶ Pa, and takes 0.27 s; a hard one takes 4 s for 2 s."""
+    """10⁴/E is 0.001 at 10⁷ Pa, between two runs: a step there is √0.1 of that of 10⁶ Pa, and takes 0.27 s; a hard one
+    takes 4 s for 2 s.
+    """
     found = told[0]
     assert (
         found["stiffness_equal_overlap_Pa"] == pytest.approx(1e7, rel=1e-6)
@@ -329,7 +342,9 @@ def test_each_run_is_told_with_its_errors(told):
 
 
 def test_the_work_of_a_run_grows_as_its_steps_and_sweeps_do():
-    """In units of the hard run's: as many steps as a shorter step asks for, 10^0.6 times the sweeps for a hundredth of the tolerance; springs four times as stiff take twice the steps."""
+    """In units of the hard run's: as many steps as a shorter step asks for, 10^0.6 times the sweeps for a hundredth of
+    the tolerance; springs four times as stiff take twice the steps.
+    """
     hard = lambda **numerics: cases.work_of(cases.Case("hard", "made up", 550, 1, **numerics))  # noqa: E731
     soft = lambda stiffness: cases.work_of(cases.Case("soft", "made up", 550, 1, stiffness=stiffness))  # noqa: E731
     assert hard() == 1 and hard(step=0.5) == 2 and hard(tolerance=0.01) == pytest.approx(10**0.6, rel=1e-12)

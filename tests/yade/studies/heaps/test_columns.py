@@ -296,7 +296,8 @@ def test_collapse(collapse, world):
     edge = (r.x + r.r)[r.connected].max()  # of the farthest disk that is still one of the heap
     assert s["front_m"][-1] == pytest.approx(edge, rel=1e-12)
     assert r.runout == pytest.approx((edge - c.place()) / r.width - 1, rel=1e-12)
-    # between Lube's 1.2 a = 1.8 and Staron and Hinch's 2.5 a = 3.75, less the scatter of 200 disks; YADE's damping takes a third of a soft way and more
+    # between Lube's 1.2 a = 1.8 and Staron and Hinch's 2.5 a = 3.75, less the scatter of 200 disks; YADE's damping
+    # takes a third of a soft way and more
     assert (1.6 if world == "hard" else 0.8) < r.runout < (3.75 if world == "hard" else 2.5)
     assert s["centroid_x_m"][-1] > s["centroid_x_m"][0] and s["height_m"][-1] < s["height_m"][0]
     # energy is never gained: what moves has fallen. Springs hold some thousandths of it
@@ -322,15 +323,18 @@ def test_both_worlds_begin_with_the_same_places(collapse):
     for r in found.values():
         x, y = r.frames[0.0]
         moved = np.hypot(x - ready.x, y - ready.y) / c.diameter
-        # springs yield under the weight, 0.4 % of a diameter in the lowest of 17 rows, and slide a little; hard disks creep while the first
-        # forces build up from nothing, a loose one by up to 0.12 diameters, half of them by less than 0.007 (five seeds)
+        # springs yield under the weight, 0.4 % of a diameter in the lowest of 17 rows, and slide a little; hard disks
+        # creep while the first forces build up from nothing, a loose one by up to 0.12 diameters, half of them by less
+        # than 0.007 (five seeds)
         assert moved.max() < 0.2
         if r.world == "hard":
             assert np.median(moved) < 0.02
 
 
 def test_damping_on_the_move_is_its_own(collapse):
-    """The integrator has the damping at rest before the release and another while the disks fall, and they fall faster for it."""
+    """The integrator has the damping at rest before the release and another while the disks fall, and they fall faster
+    for it.
+    """
     c, usual = collapse[0], collapse[1]["soft"]
     seen = []
     world = worlds.Soft(stiffness=2e8, diameter=c.diameters())
@@ -490,7 +494,9 @@ def test_report_compares_exponents_with_the_published_ones():
 
 
 def test_other_fronts_have_exponents_of_their_own(monkeypatch):
-    """Rows of touching disks of 1 m that reach as far as the law says, and some disks beyond them, 0.3 m apart: they belong to fronts over larger gaps alone."""
+    """Rows of touching disks of 1 m that reach as far as the law says, and some disks beyond them, 0.3 m apart: they
+    belong to fronts over larger gaps alone.
+    """
     law, ratios, places = scaling.RUNOUT[0], (0.5, 0.7, 1.0, 1.4, 2.0, 2.8, 4.0, 8.0), {}
     for a in ratios:
         x = 7.5 + np.arange(round(200 * (1 + float(law(a)))))
@@ -618,7 +624,9 @@ def test_command_names_what_is_wrong(in_process, tmp_path, arguments, said):
 
 @pytest.mark.parametrize("aspects, drawn", [("0.75,1.5,3", True), ("1.5,3", True), ("1.5", False)])
 def test_a_few_columns_have_their_figure_without_a_fit(in_process, monkeypatch, tmp_path, aspects, drawn):
-    """As in exercise 9 of doc/exercises.rst: too few on each side of the law's change for a fit. What is drawn is looked at in test_figures_heaps.py."""
+    """As in exercise 9 of doc/exercises.rst: too few on each side of the law's change for a fit. What is drawn is
+    looked at in test_figures_heaps.py.
+    """
     monkeypatch.setattr(
         study, "run", lambda cases, *_: {name: made_run(heap.aspect) for name, (heap, _) in cases.items()}
     )

@@ -1,4 +1,6 @@
-"""The course of a heap: what is refused before it begins, when rows, frames and rest come, and the numbers of a result, by hand."""
+"""The course of a heap: what is refused before it begins, when rows, frames and rest come, and the numbers of a result,
+by hand.
+"""
 import math
 import re
 from types import SimpleNamespace
@@ -64,7 +66,9 @@ def test_walls_are_those_that_stand(monkeypatch, gates, base, walls):
 
 
 def test_glued_disks_count_as_contacts(monkeypatch):
-    """Two disks of 1 m on a glued one of 1 m: the left one 0.06 m into it, the right one 3 mm away, so the mean of 3 % and nothing."""
+    """Two disks of 1 m on a glued one of 1 m: the left one 0.06 m into it, the right one 3 mm away, so the mean of 3 %
+    and nothing.
+    """
     stuff = O.materials[O.materials.append(hard(column.Column(**FEW)).material(column.Column(**FEW).material()))]
     glued = [O.bodies.append(makers.disk((0.5, 0), 1.0, stuff, fixed=True))]
     table = {
@@ -95,8 +99,9 @@ def test_a_release_takes_the_gates_and_nothing_else(few):
 
 
 def test_the_stiffness_that_is_asked_for_is_enough(few, monkeypatch):
-    """A disk bears ρ g H d on a spring of E R for each metre of thickness: 5 % of its diameter for E = ρ g H/(R · 5 %). So many pascals are let through, a tenth less
-    is not, and what the message asks for is let through whatever its digits."""
+    """A disk bears ρ g H d on a spring of E R for each metre of thickness: 5 % of its diameter for E = ρ g H/(R · 5 %).
+    So many pascals are let through, a tenth less is not, and what the message asks for is let through whatever its
+    digits."""
     monkeypatch.setattr(preparation, "put", lambda *scene: None)
     soft = lambda e: worlds.Soft(stiffness=e, diameter=few.diameters())  # noqa: E731
     for height in np.linspace(1.0, 1.5, 11):
@@ -197,7 +202,9 @@ def test_a_result_says_none_where_there_is_no_slope():
 
 
 def test_damping_follows_the_speed():
-    """Speeds in turn: none yet, the largest, a twentieth of it, nothing: the damping at rest, that on the move, half of either below a tenth, and again that at rest."""
+    """Speeds in turn: none yet, the largest, a twentieth of it, nothing: the damping at rest, that on the move, half of
+    either below a tenth, and again that at rest.
+    """
     O.engines = [NewtonIntegrator(damping=0.7)]
     speeds = iter([0.0, 4.0, 0.2, 0.0])
     made = SimpleNamespace(world=SimpleNamespace(damping=0.2), rms_speed=lambda: next(speeds))

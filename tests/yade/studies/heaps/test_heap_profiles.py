@@ -20,13 +20,17 @@ FRAMES = 13  # each a twelfth of a second after the other
 
 
 def speeds(x, y):
-    """By the way back from the tip: a plug to a quarter of it, a simple shear to 60 %, and a layer that rests below half of the height, in units of the tip's speed."""
+    """By the way back from the tip: a plug to a quarter of it, a simple shear to 60 %, and a layer that rests below
+    half of the height, in units of the tip's speed.
+    """
     behind, z = 1 - x / WIDTH, y / HEIGHT
     return np.select([behind < 0.25, behind < 0.6], [np.ones_like(z), z], np.maximum(0, 2 * z - 1))
 
 
 def film(folder, factor=1.0):
-    """A run whose front comes ``WAY`` far within a second, with ``factor`` times the speeds behind the first quarter; returns (heap, summary, folder)."""
+    """A run whose front comes ``WAY`` far within a second, with ``factor`` times the speeds behind the first quarter;
+    returns (heap, summary, folder).
+    """
     folder.mkdir()
     i, j = np.meshgrid(np.arange(COLUMNS), np.arange(ROWS))
     x, y = (i.ravel() + 0.5) * D, (j.ravel() + 0.5) * D
@@ -81,7 +85,8 @@ def test_each_place_has_its_regime_and_means_are_over_runs(runs, monkeypatch):
         for place in (tip, middle, rear):
             assert place["z_d"] == [k + 0.5 for k in range(ROWS)] and place["height_d"]["mean"] == pytest.approx(ROWS)
         assert [one["mean"] for one in tip["speed_rel"]] == pytest.approx([WAY / UNIT] * ROWS)
-        # the second run has four fifths of the speeds there; Student's t of two values is 12.706 standard errors, each half of their distance
+        # the second run has four fifths of the speeds there; Student's t of two values is 12.706 standard errors, each
+        # half of their distance
         z = (np.arange(ROWS) + 0.5) / ROWS
         assert [one["mean"] for one in middle["speed_rel"]] == pytest.approx(0.9 * WAY / UNIT * z)
         assert [one["half_width"] for one in middle["speed_rel"]] == pytest.approx(

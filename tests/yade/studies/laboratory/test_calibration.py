@@ -1,4 +1,6 @@
-"""A calibration's parameters, misfits, trials and bounds, by hand; made-up rocks in place of biaxial tests. Needs no YADE. Whole searches are in test_laboratory.py."""
+"""A calibration's parameters, misfits, trials and bounds, by hand; made-up rocks in place of biaxial tests. Needs no
+YADE. Whole searches are in test_laboratory.py.
+"""
 
 import dataclasses
 import json
@@ -53,7 +55,9 @@ def test_residual_strengths_are_wanted_where_their_angle_is():
 
 
 def test_parameters_begin_as_the_start_material_has_them(search):
-    """Where the table of rocks does not hold σ_ext begins at 1.1 c and μ_s as it is; the share of the residual strength is kept, no less than 2 %, and a quarter without tensile strength."""
+    """Where the table of rocks does not hold σ_ext begins at 1.1 c and μ_s as it is; the share of the residual strength
+    is kept, no less than 2 %, and a quarter without tensile strength.
+    """
     found = search(ALL, rolling_friction=0.2, tensile_strength=50e3, residual_tensile_strength=10e3)
     assert found.names == ("tensile_strength", "friction", "rolling_friction", "residual_share")
     assert np.exp(found.x0) == pytest.approx([66e3, found.start.friction, 0.2, 0.2], rel=1e-12)  # rounding, as below
@@ -211,7 +215,9 @@ def test_a_search_returns_its_best_trial(search):
 
 
 def test_parameters_stay_within_their_bounds(search):
-    """An angle of friction that the made-up rock would have at μ_s = e⁴: the search ends at μ_s = 2, its bound; one that begins beyond is put inside."""
+    """An angle of friction that the made-up rock would have at μ_s = e⁴: the search ends at μ_s = 2, its bound; one
+    that begins beyond is put inside.
+    """
     for start in (0.5, 9.0):
         one = search(calibration.Wanted(60e3, 85.0))
         found, misfit = one.search(600, [1], np.log([60e3, start]), 9)
@@ -220,7 +226,9 @@ def test_parameters_stay_within_their_bounds(search):
 
 
 def test_the_jacobian_learns_from_steps_that_are_no_scatter(search):
-    """Broyden's update: along the step that was made the Jacobian becomes the difference quotient. Of a rock that is linear in logarithms it is its derivative there: (1, 0) of ln c and (0, 10°) of φ."""
+    """Broyden's update: along the step that was made the Jacobian becomes the difference quotient. Of a rock that is
+    linear in logarithms it is its derivative there: (1, 0) of ln c and (0, 10°) of φ.
+    """
     one = search(PEAK)
     one.search(600, [1], np.log([70e3, 0.5]), 2, enough=0.0)
     first, second = (np.log(list(t["parameters"].values())) for t in one.trials[:2])
@@ -234,7 +242,9 @@ def test_the_jacobian_learns_from_steps_that_are_no_scatter(search):
 
 
 def test_what_strengths_tell_about_parameters():
-    """J = diag(3, 4) turned: singular values 4 and 3, errors 1/3 and 1/4, and the least certain direction is that of the 3."""
+    """J = diag(3, 4) turned: singular values 4 and 3, errors 1/3 and 1/4, and the least certain direction is that of
+    the 3.
+    """
     told = calibration.uniqueness(("a", "b"), np.array([[0.0, 4.0], [3.0, 0.0]]))
     assert told["singular_values"] == pytest.approx([4.0, 3.0], rel=1e-12) and told["parameters"] == ["a", "b"]
     assert told["parameter_error_rel"] == pytest.approx({"a": 1 / 3, "b": 1 / 4}, rel=1e-12)
@@ -274,13 +284,16 @@ def test_a_report_says_what_was_wanted_and_whether_it_was_reached(search):
 @pytest.mark.parametrize(
     "fine, wholes",
     [
-        # a coarse trial is 600 disks of three seeds, a fine one 2000 of two; five of those, one for each of two parameters, and four of these
+        # a coarse trial is 600 disks of three seeds, a fine one 2000 of two; five of those, one for each of two
+        # parameters, and four of these
         ((2000, (1, 2)), [5 * 1800 + 2 * 1800 + 4 * 4000, 2 * 1800 + 4 * 4000, 4 * 4000]),
         (None, [5 * 1800]),
     ],
 )
 def test_a_search_knows_how_much_is_left(search, monkeypatch, fine, wholes):
-    """What trials were spared counts as done: nothing is done here, so that each stage begins with what it and those after it take."""
+    """What trials were spared counts as done: nothing is done here, so that each stage begins with what it and those
+    after it take.
+    """
     made, told = search(PEAK), []
     monkeypatch.setattr(made, "_say_how_long", lambda *sizes: None)
     monkeypatch.setattr(made, "derivatives", lambda *where: told.append(made._whole))

@@ -20,7 +20,9 @@ def test_a_cycle_is_a_rise_and_a_drop_of_more_than_the_least():
 
 
 def test_the_drop_is_the_steepest_part_of_a_fall():
-    """A slow fall by 2, a drop by 5 within three rows, and a slow one again: four fifths and more of what five rows have are in two rows. What falls slowly alone is no cycle."""
+    """A slow fall by 2, a drop by 5 within three rows, and a slow one again: four fifths and more of what five rows
+    have are in two rows. What falls slowly alone is no cycle.
+    """
     slowly = np.linspace(0, -2, 21)
     stress = np.concatenate([[5, 11], 11 + slowly, [8.7, 6, 4], 4 + slowly, [9]])
     assert cycles.find(stress, 0.6) == [cycles.Cycle(0, 23, 25)]
@@ -30,8 +32,9 @@ def test_the_drop_is_the_steepest_part_of_a_fall():
 
 
 def series(build=40, drop=2, rise=2e6, dilates=lambda k: True, contracts=lambda k: True):
-    """A deviator stress of 20 MPa to 5 %, then cycles of ``build`` and ``drop`` rows, ``rise`` high; the kinetic energy is 1 J, and 9 J in drops. The volume grows by 0.02 % and falls by
-    0.01 % in those cycles, by their number, that dilate and contract, and the other way round in others."""
+    """A deviator stress of 20 MPa to 5 %, then cycles of ``build`` and ``drop`` rows, ``rise`` high; the kinetic energy
+    is 1 J, and 9 J in drops. The volume grows by 0.02 % and falls by 0.01 % in those cycles, by their number, that
+    dilate and contract, and the other way round in others."""
     stress, volume, energy = np.full(1000, 20e6), np.zeros(1000), np.ones(1000)
     k, row, level = 0, 500, 0.0
     while row + build + drop < 1000:

@@ -94,7 +94,9 @@ def test_a_bad_material_is_one_message(tmp_path, text, message):
 
 
 def test_samples_are_of_the_slopes_rock_and_made_as_the_slope_is():
-    """Table 1 and the water at failure are of one reading: the same contacts, the same packing fraction, pressed without friction, loaded and bonded then."""
+    """Table 1 and the water at failure are of one reading: the same contacts, the same packing fraction, pressed
+    without friction, loaded and bonded then.
+    """
     shipped, test = section.load("jiufengershan"), biaxial.BiaxialTest(
         materials.load("wwr"), 1e6, pressing.Shape(300, 1)
     )
@@ -118,7 +120,9 @@ def test_the_pressure_on_a_bonded_sample_grows_and_stays(monkeypatch):
 
 
 def test_a_sample_that_rests_is_pressed_no_longer(tmp_path, monkeypatch, empty):
-    """With friction it is at rest as soon as anybody asks: after the ramp, as long again with light walls, and the steps over which stresses are averaged."""
+    """With friction it is at rest as soon as anybody asks: after the ramp, as long again with light walls, and the
+    steps over which stresses are averaged.
+    """
     monkeypatch.setenv("XDG_CACHE_HOME", str(tmp_path))
     told = pressing.make(tmp_path, **asdict(pressing.Shape(150, 1, friction=0.5)))
     assert told["steps"] == 2 * pressing.RAMP + pressing.REST_STEPS + 1
@@ -177,7 +181,9 @@ def test_a_wall_has_the_strength_of_its_contacts(name, peak, residual):
 
 
 def test_a_block_is_pressed_by_a_load_that_grows_to_the_whole_of_it(monkeypatch):
-    """In equal parts to the pressure times the block's width, which it keeps while it slides; disks have the paper's sizes ([104]) where nothing else is said."""
+    """In equal parts to the pressure times the block's width, which it keeps while it slides; disks have the paper's
+    sizes ([104]) where nothing else is said.
+    """
     loads, step = [], stepping.advance
 
     def listening(steps=1, **told):
@@ -196,7 +202,9 @@ def test_a_block_is_pressed_by_a_load_that_grows_to_the_whole_of_it(monkeypatch)
 
 
 def test_slides_run_side_by_side_and_are_kept(tmp_path):
-    """Processes of their own give what the scene here gives, to the bit; a resume keeps them; the figure takes their series."""
+    """Processes of their own give what the scene here gives, to the bit; a resume keeps them; the figure takes their
+    series.
+    """
     tests = [wall_shear.SlideTest(materials.load("dp"), p) for p in (0.5e6, 2e6)]
     found = wall_shear.run(tests, tmp_path, threads=2)
     assert found[0] == wall_shear.slide(tests[0])
@@ -262,7 +270,8 @@ def test_calibration_finds_a_made_up_rock_and_goes_on_where_it_was_stopped(tmp_p
     assert len(search.trials) <= 20 + len(search.names)
     # none is made twice
     assert report["reached"] and len({trial["key"] for trial in report["trials"]}) == len(search.trials)
-    # d ln c = d ln σ_ext + 0.2 d ln μ_s, dφ = 1.03 · 7° d ln μ_s in coarse samples, in units of 2 % and 0.7°; the logarithms are exact at any step
+    # d ln c = d ln σ_ext + 0.2 d ln μ_s, dφ = 1.03 · 7° d ln μ_s in coarse samples, in units of 2 % and 0.7°; the
+    # logarithms are exact at any step
     tells = np.array(report["sensitivity"])
     assert tells[0, :2] == pytest.approx([50, 10], rel=1e-6) and tells[1, :2] == pytest.approx(
         [0, 1.03 * 10], rel=1e-6, abs=1e-9
@@ -278,8 +287,8 @@ def test_calibration_finds_a_made_up_rock_and_goes_on_where_it_was_stopped(tmp_p
 @pytest.mark.parametrize("parameter", ["tensile_strength", "friction"])
 @pytest.mark.parametrize("end", [0, 1])
 def test_derivatives_at_a_bound_are_of_rocks_within_it(tmp_path, parameter, end):
-    """Whoever stands at the end of a parameter's range looks to the other side, and finds the same derivative: d ln c = d ln σ_ext + 0.2 d ln μ_s in units of 2 %, dφ = 7° d ln μ_s in units
-    of 0.7°."""
+    """Whoever stands at the end of a parameter's range looks to the other side, and finds the same derivative: d ln c =
+    d ln σ_ext + 0.2 d ln μ_s in units of 2 %, dφ = 7° d ln μ_s in units of 0.7°."""
     search = MadeUpRock(calibration.Wanted(60e3, 34.0), materials.load("wwr"), tmp_path, 1)
     values = {"tensile_strength": 83850.0, "friction": 0.25} | {parameter: calibration.BOUNDS[parameter][end]}
     found = search.derivatives(2000, [1], np.log([values[name] for name in search.names]))
@@ -292,7 +301,9 @@ def test_derivatives_at_a_bound_are_of_rocks_within_it(tmp_path, parameter, end)
 
 
 def test_a_search_says_first_how_long_it_takes(tmp_path):
-    """By hand: 2 trials of 8 tests on 2 threads are 8 rounds of 1.5 s and 3,000 steps of 1,000 disks at 3 µs, to 3 % of strain, or 10,000 steps to 10 %."""
+    """By hand: 2 trials of 8 tests on 2 threads are 8 rounds of 1.5 s and 3,000 steps of 1,000 disks at 3 µs, to 3 % of
+    strain, or 10,000 steps to 10 %.
+    """
     said = []
     search = MadeUpRock(calibration.Wanted(60e3, 34.0), materials.load("wwr"), tmp_path, 2, said.append)
     assert search.seconds([(2, 1000, [1, 2])], (3e-6, 1.5)) == pytest.approx(8 * (1.5 + 9.0))
@@ -372,8 +383,9 @@ def test_a_quick_search_is_of_coarse_samples_and_says_how_good_it_is(tmp_path):
 
 
 def test_larger_samples_scatter_less_as_the_table_and_table_1_have_it():
-    """Five samples of 5,000 disks beside the scatter that the table's smaller ones give them by the root of the number of disks: with four degrees of freedom the ratio of variances is between 0.121 and 2.786
-    in 95 % of all cases (χ²/4)."""
+    """Five samples of 5,000 disks beside the scatter that the table's smaller ones give them by the root of the number
+    of disks: with four degrees of freedom the ratio of variances is between 0.121 and 2.786 in 95 % of all cases
+    (χ²/4)."""
     table1 = json.loads((shell.ROOT / "doc" / "measured" / "table1.json").read_text())
     s = rocks.table()["scatter"]
     fits = []
@@ -552,7 +564,9 @@ def test_a_test_without_an_angle_of_dilatancy_has_a_dash():
 
 
 def test_a_campaign_sums_up_its_seeds():
-    """σ₁ = 4 σ₃ + 2 c √4: sin φ = 3/5. Cohesions of 100 and 120 kPa: 110 ± 12.706 · 10 kPa by Student's t; the residual of one seed more is 3 σ₃ and 5 σ₃."""
+    """σ₁ = 4 σ₃ + 2 c √4: sin φ = 3/5. Cohesions of 100 and 120 kPa: 110 ± 12.706 · 10 kPa by Student's t; the residual
+    of one seed more is 3 σ₃ and 5 σ₃.
+    """
     measured = [
         {
             "seed": seed,
@@ -605,7 +619,9 @@ def test_a_campaign_sums_up_its_seeds():
 
 
 def test_a_test_is_measured_from_its_records(tmp_path):
-    """A made-up folder: the peak at 0.6 % of strain, the plateau over the second half, bands of what has turned since the begin."""
+    """A made-up folder: the peak at 0.6 % of strain, the plateau over the second half, bands of what has turned since
+    the begin.
+    """
     test, strain = dataclasses.replace(SMALL, strain=0.06), np.arange(1, 601) * 1e-4
     axial = np.select([np.abs(strain - 0.00605) < 0.00101, strain < 0.0301], [9e6, 6e6], 5e6)
     known = {
@@ -704,7 +720,9 @@ def test_a_test_is_measured_from_its_records(tmp_path):
 
 
 def test_the_stress_in_the_papers_range_beside_an_early_peak():
-    """9 MPa up to 0.3 % of strain, 6 up to 1.2 % and 8.4 from there on to 3 %, in rows of 0.01 %: of windows of 0.2 % the best in the range has 8.4, and of a test to 0.62 % it has 6."""
+    """9 MPa up to 0.3 % of strain, 6 up to 1.2 % and 8.4 from there on to 3 %, in rows of 0.01 %: of windows of 0.2 %
+    the best in the range has 8.4, and of a test to 0.62 % it has 6.
+    """
     strain = np.arange(1, 301) * 1e-4
     axial = np.select([strain < 0.00305, strain < 0.01205], [9e6, 6e6], 8.4e6)
     series = {"strain": strain, "sigma1_top_Pa": axial, "sigma1_bottom_Pa": axial}
@@ -765,7 +783,9 @@ def test_a_row_of_a_test_by_hand(sides):
 
 
 class MadeUpTest(biaxial.BiaxialCourse):
-    """A sample of 1 m that is pressed by ``path`` [m] in each row, to a strain of 0.05; notes the strain at which each snapshot was written."""
+    """A sample of 1 m that is pressed by ``path`` [m] in each row, to a strain of 0.05; notes the strain at which each
+    snapshot was written.
+    """
 
     hard = True
 
@@ -810,7 +830,8 @@ def test_a_snapshot_is_of_the_row_in_which_its_strain_was_passed(path, state, wr
 
 @pytest.mark.parametrize("sides", ["rigid", "flexible"])
 def test_a_biaxial_test_keeps_its_pressure_and_goes_on_from_a_checkpoint(tmp_path, sides):
-    # rough platens: between smooth ones so small a sample in a membrane ends up on one slip plane, with a contact's friction and less
+    # rough platens: between smooth ones so small a sample in a membrane ends up on one slip plane, with a contact's
+    # friction and less
     test = dataclasses.replace(SMALL, sides=sides, platens="rough", forces_from=0.01)
     whole, broken = tmp_path / "whole", tmp_path / "broken"
     for folder in (whole, broken):
@@ -829,7 +850,8 @@ def test_a_biaxial_test_keeps_its_pressure_and_goes_on_from_a_checkpoint(tmp_pat
         name: series["step"][row] for name, row in zip(("begin", "peak", "end"), (found.begin, found.peak, found.end))
     }
     assert (shots["peak"].cn > 0).any()
-    # half of the mass times the mean square of the speeds, which is above the square of their mean, and by less than thirty times where some disks jump
+    # half of the mass times the mean square of the speeds, which is above the square of their mean, and by less than
+    # thirty times where some disks jump
     mass = float(np.sum(test.material.density * math.pi * shots["peak"].r ** 2))
     even = 0.5 * mass * np.mean(series["speed_mean_m_per_s"][late] ** 2)
     assert even < np.mean(series["energy_kinetic_J"][late]) < 30 * even
@@ -837,7 +859,8 @@ def test_a_biaxial_test_keeps_its_pressure_and_goes_on_from_a_checkpoint(tmp_pat
         # each row is the mean of 10 steps; the wall's own inertia and the tolerance make the rest
         assert np.mean(series[f"sigma3_{name}_Pa"][late]) == pytest.approx(1e6, rel=0.01)
     top, bottom = series["sigma1_top_Pa"][late].mean(), series["sigma1_bottom_Pa"][late].mean()
-    # quasi-static; a membrane whose ends stand at different x pushes up or down too: with ends a diameter apart p d/W = 0.12 p, 6 % of σ₁
+    # quasi-static; a membrane whose ends stand at different x pushes up or down too: with ends a diameter apart p d/W =
+    # 0.12 p, 6 % of σ₁
     assert top == pytest.approx(bottom, rel=0.01 if sides == "rigid" else 0.06)
     assert 1.8e6 < top < 8e6  # friction angles from that of a contact, 16.7°, to 50°
 
@@ -960,7 +983,9 @@ def test_the_script_writes_a_summary_and_figures(tmp_path):
 
 
 def test_effects_compare_each_value_with_the_usual_one_sample_by_sample(tmp_path, monkeypatch):
-    """A made-up rock whose strength grows with the rate, by the same share in both samples, and depends on nothing else."""
+    """A made-up rock whose strength grows with the rate, by the same share in both samples, and depends on nothing
+    else.
+    """
     runs = []
 
     def made_up(tests, out, threads, resume, progress):

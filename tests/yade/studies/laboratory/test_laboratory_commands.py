@@ -9,7 +9,9 @@ from yade.nonsmooth.measure import strength
 
 
 def made_up(material, disks, with_residual):
-    """c [Pa], φ [°] (and residual ones) of a rock whose strengths are known functions of its contacts, a little stronger in coarse samples."""
+    """c [Pa], φ [°] (and residual ones) of a rock whose strengths are known functions of its contacts, a little
+    stronger in coarse samples.
+    """
     m, coarse = material, 1.03 if disks < 1000 else 1.0
     found = [
         coarse * 0.9 * m.tensile_strength * m.friction**0.2,
@@ -122,7 +124,9 @@ def test_calibrate_says_what_it_has_not_reached(in_process, trials, tmp_path):
 
 
 def test_wall_shear_measures_what_the_wall_has(in_process, tmp_path):
-    """Two slides on SS, bonded as nobody ships it: eq. 4 says friction 0.2 and a cohesion of 0.2 times the strength on the part that is covered."""
+    """Two slides on SS, bonded as nobody ships it: eq. 4 says friction 0.2 and a cohesion of 0.2 times the strength on
+    the part that is covered.
+    """
     words = (
         "--material",
         "ss",

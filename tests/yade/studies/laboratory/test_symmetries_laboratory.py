@@ -1,4 +1,6 @@
-"""The laboratory's walls and membrane: forces by hand, and the same test mirrored, transposed, with other ids and in other units."""
+"""The laboratory's walls and membrane: forces by hand, and the same test mirrored, transposed, with other ids and in
+other units.
+"""
 import numpy as np
 import pytest
 from yade import O
@@ -31,8 +33,8 @@ def disks():
 
 
 def pressed(names=None, order=None, length=1.0, pressure=1.0, density=1.0, steps=300):
-    """A sample between two walls that follow the pressure; ``names``: what each wall is called here. Returns places of the disks, of the walls, and stresses,
-    as they are called and measured in the first case."""
+    """A sample between two walls that follow the pressure; ``names``: what each wall is called here. Returns places of
+    the disks, of the walls, and stresses, as they are called and measured in the first case."""
     O.reset()
     names = names or {name: name for name in SIDES}
     where, r = disks()
@@ -82,7 +84,8 @@ def here():
     found = pressed()
     O.reset()
     places, walls, stresses, _ = found
-    # all disks are up to date, and above their first places or beside them; the walls have come in and press; rough platens keep it from the left one
+    # all disks are up to date, and above their first places or beside them; the walls have come in and press; rough
+    # platens keep it from the left one
     assert np.abs(places - disks()[0]).max(axis=1).min() > 1e-3
     assert walls[0] < WIDTH - 0.1 and walls[1] < HEIGHT - 0.1 and (stresses > 0.5).sum() == 3
     return found
@@ -176,7 +179,9 @@ BOTTOM, TOP, SIGMA = -0.55, 14.55, 7.0
 
 
 def test_the_membrane_of_a_lattice_by_hand():
-    """Columns one above the other: an inner disk of a side carries σ₃ times the spacing, the ends half of it and what is left to the platens."""
+    """Columns one above the other: an inner disk of a side carries σ₃ times the spacing, the ends half of it and what
+    is left to the platens.
+    """
     x, y = (v.ravel().astype(float) for v in np.meshgrid(np.arange(4) + 1e-9, np.arange(6)))
     x = x + 1e-7 * np.sin(7 * np.arange(24))  # so that no four disks lie on a circle
     force, area = membrane.forces(x, y, np.full(24, 0.5), -0.7, 5.6, SIGMA)
@@ -221,8 +226,9 @@ def test_a_membrane_turns_a_sample_only_as_its_ends_do():
     at = np.column_stack((x, y))
     at[left, 0] -= r[left]
     at[right, 0] += r[right]
-    # the whole line's: each edge's force acts half at each end, so its moment is that of its middle, as a pressure's is; but the straight pieces to the platens act on
-    # the end disks, from whose height to the platen's their arm is counted
+    # the whole line's: each edge's force acts half at each end, so its moment is that of its middle, as a pressure's
+    # is; but the straight pieces to the platens act on the end disks, from whose height to the platen's their arm is
+    # counted
     moment = np.sum(at[:, 0] * force[:, 1] - at[:, 1] * force[:, 0])
     lt, lb, rb, rt = at[[left[0], left[-1], right[0], right[-1]], 0]
     # of the pressure on the platens, upwards below and downwards above

@@ -1,4 +1,6 @@
-"""The command that lays our strengths beside the paper's Table 1: from made-up tests of known strength to each figure, its interval and its place."""
+"""The command that lays our strengths beside the paper's Table 1: from made-up tests of known strength to each figure,
+its interval and its place.
+"""
 
 import json
 import math
@@ -18,7 +20,9 @@ def major(minor, cohesion):
 
 @pytest.fixture
 def told(tmp_path, monkeypatch):
-    """The cohesion grows by 2 kPa a seed; residual strengths are a tenth; walls have the friction of their material, and a cohesion of 10 kPa times the seed if bonded."""
+    """The cohesion grows by 2 kPa a seed; residual strengths are a tenth; walls have the friction of their material,
+    and a cohesion of 10 kPa times the seed if bonded.
+    """
     asked = {}
 
     def tested(tests, out, threads, resume, progress):
@@ -127,7 +131,9 @@ def test_each_figure_is_in_its_place_with_its_interval(told):
 
 
 def test_the_papers_numbers_are_those_of_its_table_1():
-    """Effective cohesion [kPa] and friction [°], largest and residual; a dash of the table is a number that is not there. The second row of DP is the same with the table's cohesion."""
+    """Effective cohesion [kPa] and friction [°], largest and residual; a dash of the table is a number that is not
+    there. The second row of DP is the same with the table's cohesion.
+    """
     whole = ("cohesion_peak", "friction_peak", "cohesion_residual", "friction_residual")
     assert table1.PAPER == {
         "WWR": dict(zip(whole, (88, 38.5, 13, 26.2))),

@@ -1,4 +1,6 @@
-"""The measure by which closing bonds become the default or do not, on made-up rows: each criterion fails alone. Needs no YADE."""
+"""The measure by which closing bonds become the default or do not, on made-up rows: each criterion fails alone. Needs
+no YADE.
+"""
 
 import pytest
 
@@ -13,7 +15,9 @@ SHIPPED = made_up("shipped", "smooth")
 
 
 def closing(inside=5, banded=5, samples=5, **changes):
-    """A row with five samples, of which so many peak ``inside`` the paper's range of strains, and so many have two bands."""
+    """A row with five samples, of which so many peak ``inside`` the paper's range of strains, and so many have two
+    bands.
+    """
     row = made_up(
         "closing-0.02", "rough", [[0.01, 0.01 if k < inside else 0.0012, 0.01] for k in range(samples)], **changes
     )

@@ -65,7 +65,9 @@ def test_what_waits_for_the_shipped_slope_says_so_where_that_did_not_fail_by_wat
 
 @pytest.fixture
 def ran(monkeypatch, tmp_path):
-    """Plans that are run, without a slope: [(folder, title, {name: data})]; each run of seed s failed at s + 0.5 m of water."""
+    """Plans that are run, without a slope: [(folder, title, {name: data})]; each run of seed s failed at s + 0.5 m of
+    water.
+    """
     asked = []
 
     class Plan:

@@ -1,4 +1,6 @@
-"""Readings of what the paper leaves open: what each changes, how near it is to the paper, and that runs which several share are made once."""
+"""Readings of what the paper leaves open: what each changes, how near it is to the paper, and that runs which several
+share are made once.
+"""
 
 import dataclasses
 import math
@@ -31,13 +33,17 @@ def test_the_default_is_the_shipped_section_and_its_rock():
 
 
 def test_each_reading_is_another_one():
-    """No two have both the same slopes and the same tests: a slip of the pen in a key or a value would make one of them the default."""
+    """No two have both the same slopes and the same tests: a slip of the pen in a key or a value would make one of them
+    the default.
+    """
     told = {(name, p): repr(all_of(one, p)) for name, one in readings.READINGS.items() for p in one.platens}
     assert len(set(told.values())) == len(told)
 
 
 def test_samples_stand_between_both_platens_or_their_own():
-    """What is about the boundary itself stands once; all others between smooth and rough ones, and in nothing else do the two differ."""
+    """What is about the boundary itself stands once; all others between smooth and rough ones, and in nothing else do
+    the two differ.
+    """
     once = {name: one.platens for name, one in readings.READINGS.items() if one.platens != readings.PLATENS}
     assert once == {"membrane": ("rough",), "glued": ("glued",)}
     smooth, rough = (all_of(SHIPPED, p)[1] for p in readings.PLATENS)
@@ -56,7 +62,9 @@ def test_closing_bonds_close_in_the_rock_and_at_fb(distance):
     "name", [name for name in readings.READINGS if name.startswith(("ellipse-", "gap-", "packed-0"))]
 )
 def test_a_readings_name_has_its_number(name):
-    """Both half axes of the ellipse, or the largest gap that is bonded, in the slope and in the samples; the other of the two is the shipped one."""
+    """Both half axes of the ellipse, or the largest gap that is bonded, in the slope and in the samples; the other of
+    the two is the shipped one.
+    """
     kind, number = name.split("-")
     slope, tests = all_of(readings.READINGS[name])
     shipped = all_of(SHIPPED)[0]["materials"]["rock"]
@@ -91,7 +99,9 @@ def test_what_is_not_pressed_is_so_in_both(name):
     "name, thickness, inclination", [("toe-67.5", 67.5, 90), ("backstop-70", 65, 70), ("backstop-110", 65, 110)]
 )
 def test_the_toe_has_its_thickness_and_the_backstop_its_inclination(name, thickness, inclination):
-    """Thickness normal to DP, and the angle in the mass between DP, upslope, and FB: to the rounding of the file, 1 mm in 65 m. Layers end on FB in equal parts, and the crown stays."""
+    """Thickness normal to DP, and the angle in the mass between DP, upslope, and FB: to the rounding of the file, 1 mm
+    in 65 m. Layers end on FB in equal parts, and the crown stays.
+    """
     made, shipped = readings.slope_of(readings.READINGS[name], 3000, 1), section.load("jiufengershan")
     top = made.wall("FB").points[-1]
     assert np.dot(top, made.normal) == pytest.approx(thickness, abs=2e-3)
@@ -108,8 +118,9 @@ def test_the_toe_has_its_thickness_and_the_backstop_its_inclination(name, thickn
 
 
 def test_layers_of_one_thickness_are_cut_by_the_surface():
-    """Above DP: bottoms at 13.5 m times their number; five at the foot, the rest of 65 m being the uppermost's; three at the crown. Together they fill what the shipped ones fill,
-    overlap nowhere, and none is thinner than the largest disk."""
+    """Above DP: bottoms at 13.5 m times their number; five at the foot, the rest of 65 m being the uppermost's; three
+    at the crown. Together they fill what the shipped ones fill, overlap nowhere, and none is thinner than the largest
+    disk."""
     made, shipped = (readings.section_of(readings.READINGS[name]) for name in ("layers-13.5", reading_numbers.SHIPPED))
     axes = np.array([np.negative(shipped.downslope), shipped.normal])  # up DP, and off it
     polygons = [Polygon(np.array(layer.points) @ axes.T) for layer in made.layers]
@@ -144,14 +155,18 @@ def test_misses_are_in_units_of_what_is_allowed():
 
 
 def test_peaks_to_both_sides_of_the_papers_are_no_peak_at_the_papers():
-    """At an eighth and at eight times of 1 % the mean logarithm is that of 1 %: each sample misses by three octaves, and so do all."""
+    """At an eighth and at eight times of 1 % the mean logarithm is that of 1 %: each sample misses by three octaves,
+    and so do all.
+    """
     assert reading_numbers.misses(PAPER | {"strain_peak": [[0.01 / 8, 0.08], [0.08, 0.01 / 8]]})[
         "strain_peak"
     ] == pytest.approx(3.0)
 
 
 def test_the_tables_tell_all_strains_of_peaks_and_no_mean_of_them():
-    """Of three packings one has its peak at 0.1 %; a reading between two kinds of platens has two lines, the nearer one first, and what shares its samples has none of its own in the second table."""
+    """Of three packings one has its peak at 0.1 %; a reading between two kinds of platens has two lines, the nearer one
+    first, and what shares its samples has none of its own in the second table.
+    """
     strains = [[0.001, 0.01, 0.012], [0.006, 0.021, 0.019], [0.01, 0.0049, 0.011]]
     near, far = made_up("a", "smooth", strain_peak=strains), made_up("a", "rough", friction_peak_deg=48.5)
     other = made_up("b", "smooth", friction_peak_deg=40.5, folder=near["folder"])
@@ -165,7 +180,9 @@ def test_the_tables_tell_all_strains_of_peaks_and_no_mean_of_them():
 
 
 def test_what_each_sample_says_by_hand(tmp_path):
-    """Two pressures, whose circles touch the line of 50 kPa and 30°; stresses over 4 to 6 and 8 to 10 % of strain are those of steps, of which half a window is one step and half another."""
+    """Two pressures, whose circles touch the line of 50 kPa and 30°; stresses over 4 to 6 and 8 to 10 % of strain are
+    those of steps, of which half a window is one step and half another.
+    """
     root, tests = math.tan(math.radians(60)), []
     for confining in (0.5e6, 8e6):
         tests.append(
@@ -190,7 +207,9 @@ def test_what_each_sample_says_by_hand(tmp_path):
 
 
 def test_the_water_of_a_passive_toe_is_nearer_to_the_papers_on_the_disks_than_on_the_bulk():
-    """Rankine's passive toe with Table 1: below 22.5 m in both, whichever way that is measured, and nearer to it with water on the disks, which is the shipped reading."""
+    """Rankine's passive toe with Table 1: below 22.5 m in both, whichever way that is measured, and nearer to it with
+    water on the disks, which is the shipped reading.
+    """
     found = reading_numbers.toe_water()
     # to the tenth that the page gives them with
     assert {volume: one["normal_m"] for volume, one in found.items()} == pytest.approx(
@@ -234,7 +253,9 @@ def test_each_number_of_a_reading_has_a_column_with_the_papers_band():
 
 
 def test_stress_against_strain_of_each_sample_beside_the_papers_peaks():
-    """Two packings that peak at 0.4 and at 1.5 % of strain; shipped bonds above, closing ones below, Δ from left to right."""
+    """Two packings that peak at 0.4 and at 1.5 % of strain; shipped bonds above, closing ones below, Δ from left to
+    right.
+    """
     strain = np.arange(1, 1001) * 1e-4
 
     def curve(at, height):
@@ -260,7 +281,9 @@ def test_stress_against_strain_of_each_sample_beside_the_papers_peaks():
 
 
 def test_stress_against_strain_is_drawn_where_all_of_its_readings_were_tested(tmp_path, monkeypatch):
-    """Between smooth platens all six, between rough ones five; a reading that shares its samples has those of the folder that it names."""
+    """Between smooth platens all six, between rough ones five; a reading that shares its samples has those of the
+    folder that it names.
+    """
     kept, rows = drawn.keep(monkeypatch, figures.style), []
     for k, name in enumerate(name for line in figures.BONDS.values() for name in line):
         folder = tmp_path / f"kept{k}" / "tests" / "8MPa-seed1"
@@ -279,7 +302,9 @@ def test_stress_against_strain_is_drawn_where_all_of_its_readings_were_tested(tm
 
 
 def test_small_runs_and_what_is_shared(tmp_path):
-    """Sides rule samples alone, the backstop slopes alone: of three readings there are two kinds of samples and two of slopes. What stands between platens of its own is run whichever are asked for."""
+    """Sides rule samples alone, the backstop slopes alone: of three readings there are two kinds of samples and two of
+    slopes. What stands between platens of its own is run whichever are asked for.
+    """
     chosen = {name: readings.READINGS[name] for name in (reading_numbers.SHIPPED, "membrane", "backstop-loose")}
     rows = readings.run(chosen, tmp_path, 600, 150, [1], ["smooth"], strain=0.01, threads=2)
     assert sorted(f"{p.parent.name}/{p.name}" for p in (tmp_path / "samples").glob("*/*")) == [
@@ -305,7 +330,9 @@ def test_small_runs_and_what_is_shared(tmp_path):
 
 
 def test_samples_under_one_pressure_without_slopes(tmp_path):
-    """What other pressures and slopes would tell is missing, and nothing is made up for it; the sample that was tested is told, and drawn where 8 MPa were asked for."""
+    """What other pressures and slopes would tell is missing, and nothing is made up for it; the sample that was tested
+    is told, and drawn where 8 MPa were asked for.
+    """
     chosen = {reading_numbers.SHIPPED: SHIPPED}
     of = lambda *pressures: readings.run(  # noqa: E731
         chosen, tmp_path / str(pressures[0]), 600, 150, [1], ["smooth"], 0.01, pressures, slopes=False

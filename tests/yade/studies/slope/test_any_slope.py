@@ -1,4 +1,6 @@
-"""Slopes of any section: shipped ones, mirrored and similar ones, with walls of any name and role, without water, weakening or backstop."""
+"""Slopes of any section: shipped ones, mirrored and similar ones, with walls of any name and role, without water,
+weakening or backstop.
+"""
 
 import json
 
@@ -50,7 +52,9 @@ def test_shipped_sections_are_listed(in_process):
     ],
 )
 def test_every_shipped_section_begins(name, disks, end, in_process, monkeypatch, tmp_path):
-    """Up to where its water begins to rise, with all figures (the paper's section, which has tests of its own, up to its first rows)."""
+    """Up to where its water begins to rise, with all figures (the paper's section, which has tests of its own, up to
+    its first rows).
+    """
     kept = drawn.keep(monkeypatch, style)
     out = tmp_path / "out"
     done = in_process(SLOPE, "--section", name, "--disks", disks, "--end", end, "--out", out)
@@ -228,9 +232,10 @@ def test_a_slope_without_water_weakening_and_backstop(monkeypatch, tmp_path):
 
 
 def test_a_slope_of_another_size_does_the_same_until_it_fails(whole, tmp_path):
-    """At a hundredth of the size, lengths, times and forces come down by 100, 10 and 10⁴. Rounding is another one, so all is the same as far as it is for disks that were
-    shifted by the last bit: bounds are twice the widest of what eleven sizes from 0.01 to 0.3 gave, before bonded disks were turned as one and after. That nothing has a
-    unit that does not go along is the next test's."""
+    """At a hundredth of the size, lengths, times and forces come down by 100, 10 and 10⁴. Rounding is another one, so
+    all is the same as far as it is for disks that were shifted by the last bit: bounds are twice the widest of what
+    eleven sizes from 0.01 to 0.3 gave, before bonded disks were turned as one and after. That nothing has a unit that
+    does not go along is the next test's."""
     small = similar.scaled(section.load(str(SMALL)), 0.01)
     O.reset()
     series, told = run(small, tmp_path / "out")
@@ -258,8 +263,9 @@ def power_of(name):
 
 
 def test_a_slope_of_a_64th_of_the_size_has_its_bits_in_proportion(whole, tmp_path):
-    """From its packing to its rest. Lengths in the ratio of a power of four, times and speeds then of a power of two, are the only ones that rounding leaves in
-    proportion: a number with a unit that does not go along is seen, at whatever time it acts."""
+    """From its packing to its rest. Lengths in the ratio of a power of four, times and speeds then of a power of two,
+    are the only ones that rounding leaves in proportion: a number with a unit that does not go along is seen, at
+    whatever time it acts."""
     size = 1 / 64
     O.reset()
     series, told = run(similar.scaled(section.load(str(SMALL)), size), tmp_path / "out")
@@ -281,7 +287,8 @@ def test_disks_have_mass_and_inertia_in_proportion_to_the_bit():
         assert small.mass == big.mass / 64**2 and small.inertia[2] == big.inertia[2] / 64**4
 
 
-# powers of the size with which numbers of a scene grow (Froude); all others have no unit, or one that does not depend on it
+# powers of the size with which numbers of a scene grow (Froude); all others have no unit, or one that does not depend
+# on it
 POWERS = {
     "dt": 0.5,
     "NonsmoothTimeStepper.smallest": 0.5,
@@ -296,7 +303,9 @@ POWERS = {
 
 
 def numbers_of_the_scene(chosen):
-    """(class and attribute, which one of the class, value) of all numbers that engines, their functors and materials have."""
+    """(class and attribute, which one of the class, value) of all numbers that engines, their functors and materials
+    have.
+    """
     x, y = chosen.layers[0].polygon.representative_point().coords[0]
     slope.build(chosen, Packing([x], [y], [1e-3 * chosen.smallest], [0]))
     dispatchers = ("lawDispatcher", "geomDispatcher", "physDispatcher", "boundDispatcher")

@@ -1,4 +1,5 @@
-"""Folders of a run that something has damaged: a resume says so in one line, or it goes on from what was saved. It never goes on from anything else.
+"""Folders of a run that something has damaged: a resume says so in one line, or it goes on from what was saved. It
+never goes on from anything else.
 
 NONSMOOTH_FUZZ_CHECKPOINTS: how many damaged folders (default 100).
 """
@@ -42,7 +43,9 @@ def make(source, out, end):
 
 
 class Saved:
-    """A run's folder as {name: bytes}, what it was saved as, and the folders of an earlier checkpoint of it and of a run with other stages."""
+    """A run's folder as {name: bytes}, what it was saved as, and the folders of an earlier checkpoint of it and of a
+    run with other stages.
+    """
 
     def __init__(self, home):
         source = slope_scenes.write_quick(home)
@@ -216,7 +219,8 @@ def check(saved, files, folder):
         assert {n: (folder / n).read_bytes() for n in files} == files  # nothing is lost
         return told
     run.series.close()
-    # an earlier checkpoint of the same run, with a series that holds its rows, is as good: the rows after it are computed again
+    # an earlier checkpoint of the same run, with a series that holds its rows, is as good: the rows after it are
+    # computed again
     told = next(t for t in (saved.told, json.loads(saved.earlier["checkpoint/checkpoint.json"])) if t["step"] == O.iter)
     assert asdict(run.state) == told["state"] and run.slope.walls == told["walls"] and run.slope.count == told["count"]
     assert (folder / "series.csv").read_bytes() == saved.series[: told["series"]["bytes"]]
@@ -280,7 +284,9 @@ def test_records_beyond_the_checkpoint_go_at_a_resume(saved, tmp_path):
 
 
 def test_a_fresh_run_takes_the_checkpoint_away_first(saved, tmp_path, monkeypatch):
-    """Stopped at the first thing that it writes or removes after that: there is no checkpoint, and no old record for it."""
+    """Stopped at the first thing that it writes or removes after that: there is no checkpoint, and no old record for
+    it.
+    """
     folder = tmp_path / "out"
     check(saved, saved.files, folder)
     forgotten = []

@@ -1,4 +1,6 @@
-"""The slope's command: same bits on any number of threads and after stops of all kinds, and bad input refused before anything is lost."""
+"""The slope's command: same bits on any number of threads and after stops of all kinds, and bad input refused before
+anything is lost.
+"""
 
 import json
 import shutil
@@ -20,7 +22,9 @@ def bytes_of(folder):
 
 
 def test_another_number_of_threads_gives_the_same_bits(whole, tmp_path):
-    """The command in a process of its own, on two threads where this one has one, else on one, against the run in this process."""
+    """The command in a process of its own, on two threads where this one has one, else on one, against the run in this
+    process.
+    """
     threads = 2 if O.numThreads == 1 else 1
     done = shell.run(SLOPE, "--section", SMALL, "--out", tmp_path, "--threads", threads, "--no-figures")
     assert done.returncode == 0, done.stdout + done.stderr
@@ -57,7 +61,9 @@ def test_figures_are_drawn_from_the_records(whole, tmp_path):
 
 
 def test_an_early_end_and_a_resume_give_the_same_bits(whole, in_process, tmp_path):
-    """Stopped while water acts, while the plane weakens and the table is held, while disks are released, and while it rests; each part goes on from a checkpoint."""
+    """Stopped while water acts, while the plane weakens and the table is held, while disks are released, and while it
+    rests; each part goes on from a checkpoint.
+    """
     s, state = whole.series, whole.state
     weakens = s["time_s"][(s["weakened_disks"] > 5) & (s["weakened_disks"] < 0.9 * s["weakened_disks"].max())][0]
     released = s["time_s"][s["released_disks"] > 0.5 * s["released_disks"].max()][0]

@@ -1,6 +1,8 @@
-"""A slope that is killed at any moment, also over the folder of an earlier run, and goes on: the same bytes as one that was never disturbed.
+"""A slope that is killed at any moment, also over the folder of an earlier run, and goes on: the same bytes as one that
+was never disturbed.
 
-NONSMOOTH_KILLS: how many kills (default 4), every fourth over an old folder. Run NONSMOOTH_KILLS=40 after changes to what runs write.
+NONSMOOTH_KILLS: how many kills (default 4), every fourth over an old folder. Run NONSMOOTH_KILLS=40 after changes to
+what runs write.
 """
 
 import os

@@ -110,7 +110,9 @@ def test_a_run_that_is_killed_after_its_last_checkpoint_has_nothing_left_to_do(t
 
 
 def test_what_a_script_writes_before_it_runs_the_experiment_acts(tmp_path):
-    """A disk thrown upwards before the first call rises; in 0.1 s gravity, which grows, takes less than 1 m/s of its 30."""
+    """A disk thrown upwards before the first call rises; in 0.1 s gravity, which grows, takes less than 1 m/s of its
+    30.
+    """
     run = begun(tmp_path / "out")
     top = max((b for b in O.bodies if b.dynamic), key=lambda b: b.state.pos[1])
     begins = top.state.pos[1]

@@ -41,7 +41,9 @@ def until(end):
 
 # ---- names ------------------------------------------------------------------------------------------
 def test_all_numbers_of_a_summary_are_known_before(tmp_path):
-    """What ``--draw`` of a sweep may name: with a backstop, an envelope, water along a wall; and no more than a run may have."""
+    """What ``--draw`` of a sweep may name: with a backstop, an envelope, water along a wall; and no more than a run may
+    have.
+    """
     plan = synthetic.load("campaign.plan")
     summary = results.summarise(known_slope.write(tmp_path), SHIPPED, STATE)
     found = {name for name in plan.numbers(summary) if name != "verdict" and not name.startswith("times_missing.")}
@@ -84,7 +86,9 @@ def test_a_mean_is_over_the_seconds_up_to_a_time():
 
 # ---- characteristic times ---------------------------------------------------------------------------
 def test_times_of_a_whole_run():
-    """t1: the mean over 1 s of 140 + 3 (t − 10) MN/m comes to 98 % of that at t2, 199.7; t3: the mean of T_DP over 1 s, 379.85 MN/m at t2, to a tenth; t5: 85.03 − 0.02 · 28.03 s."""
+    """t1: the mean over 1 s of 140 + 3 (t − 10) MN/m comes to 98 % of that at t2, 199.7; t3: the mean of T_DP over 1 s,
+    379.85 MN/m at t2, to a tenth; t5: 85.03 − 0.02 · 28.03 s.
+    """
     assert times_of(known_slope.series()) == pytest.approx(TIMES, abs=1e-9)
 
 
@@ -155,7 +159,9 @@ def test_a_slope_that_weakened_and_stopped_has_t3_after_t2():
 
 
 def test_t3_is_a_tenth_of_the_mean_shear():
-    """From 35 s on it falls from 365 MN/m by a quarter a second; with a rest of 9 or of 11 % of the mean at t2, it comes to a tenth, or does not."""
+    """From 35 s on it falls from 365 MN/m by a quarter a second; with a rest of 9 or of 11 % of the mean at t2, it
+    comes to a tenth, or does not.
+    """
     for rest, comes in ((0.09, True), (0.11, False)):
         series = changed(
             dp_shear_N_per_m=lambda t: np.where(t <= 35, 365e6, np.maximum(365e6 * (1 - (t - 35) / 4), rest * 365e6))
@@ -202,7 +208,9 @@ def missing_of(series, **state):
 
 
 def test_times_come_in_their_order_or_say_why_not():
-    """The shear force falls to a tenth after the kinetic energy was largest, before and after the slope is at rest; and that is largest after it is at rest."""
+    """The shear force falls to a tenth after the kinetic energy was largest, before and after the slope is at rest; and
+    that is largest after it is at rest.
+    """
     known = known_slope.series()
     for at in (60.0, 90.0):
         late = changed(dp_shear_N_per_m=lambda t: np.where(t > at, 0.0, 365e6))
@@ -268,7 +276,9 @@ def test_stopped_before_weakening():
 
 
 def test_a_slope_that_failed_dry_has_the_times_of_its_motion():
-    """Of all rows: kinetic energy is largest while it settles, at once, and 2 % of 45 m/s are passed at 85.03 − 0.03 · 28.03 s."""
+    """Of all rows: kinetic energy is largest while it settles, at once, and 2 % of 45 m/s are passed at 85.03 − 0.03 ·
+    28.03 s.
+    """
     assert times_of(known_slope.series(), failed_dry=3.0) == {
         "t0": None,
         "t1": None,
@@ -286,8 +296,10 @@ WATER, BACK, SHEAR = (0.5 * 19.1, 140e6 + 3e6 * (19.1 - 0.45), 440e6 - 3e6 * (19
 DRY_BACK, DRY_SHEAR = 140e6 - 0.45e6, 440e6 + 0.9e6
 LOST = 9.5e9
 
-#: Each key of summary.json: its answer, and the powers of length, time and mass of 1 m³ of rock by which it grows with a slope's size.
-# of the stacks that known_slope piles up: tops 20 m above the plane, middles 17 m below these, and on the floor 30 m and once 36 m
+#: Each key of summary.json: its answer, and the powers of length, time and mass of 1 m³ of rock by which it grows with
+#: a slope's size.
+# of the stacks that known_slope piles up: tops 20 m above the plane, middles 17 m below these, and on the floor 30 m
+# and once 36 m
 CROWN = known_slope.plane(-996.0) + 20.0
 STACK = [known_slope.plane(-1000.0 + 12 * k + 4) + 3.0 for k in range(50)]
 CENTRE = (11 * sum([21.313 + 13.0] * 39 + [21.313 + 19.0]) + 300.0) / 441
@@ -345,7 +357,8 @@ KNOWN = {
     "speed_mean_max_m_per_s": (30.0, "speed"),
     "deposit_thickness_max_m": (36.0, "length"),
     "deposit_thickness_ground_m": (36.0, "length"),
-    # from the top of the first stack on the plane to below the disk in the air, which is more than a thousandth of the disks
+    # from the top of the first stack on the plane to below the disk in the air, which is more than a thousandth of the
+    # disks
     "travel_drop_m": (CROWN - 298.0, "length"),
     "travel_run_m": (992.0 + 1000.0, "length"),
     "travel_angle_deg": (math.degrees(math.atan2(CROWN - 298.0, 1992.0)), None),
@@ -534,7 +547,9 @@ def test_a_run_that_failed_dry_is_told_from_its_beginning(tmp_path):
 
 
 def test_the_centre_of_mass_has_come_to_where_it_is_in_the_last_row(tmp_path):
-    """From (−500, 300) m at t0; the known run moves 200 m and 150 m from there, and 7 m and 3 m more in its last row alone."""
+    """From (−500, 300) m at t0; the known run moves 200 m and 150 m from there, and 7 m and 3 m more in its last row
+    alone.
+    """
     series = known_slope.series()
     series["centroid_x_m"][-1] += 7.0
     series["centroid_y_m"][-1] -= 3.0
@@ -573,7 +588,9 @@ def test_a_rock_without_envelope_is_not_set_beside_its_toe(tmp_path):
 
 @pytest.mark.parametrize("size", [0.25, 4.0])
 def test_a_slope_of_another_size_has_the_same_summary_in_its_units(tmp_path, size):
-    """Lengths, times, speeds, forces per metre and energies per metre grow as L, √L, √L, L² and L³ (Froude); all else is the same."""
+    """Lengths, times, speeds, forces per metre and energies per metre grow as L, √L, √L, L² and L³ (Froude); all else
+    is the same.
+    """
     section, time = known_slope.scaled(size)
     units = {"length": size, "time": time, "speed": time, "force": size**2, "energy": size**3, None: 1.0}
     of_columns = {

@@ -1,4 +1,6 @@
-"""A slope's course in its scene: one that fails by its own weight, what is done where the rules decide, forces on walls between two rows, options without sense."""
+"""A slope's course in its scene: one that fails by its own weight, what is done where the rules decide, forces on walls
+between two rows, options without sense.
+"""
 
 import dataclasses
 import json
@@ -19,7 +21,9 @@ from yade.wrapper import WallForceEngine
 
 
 def written(path, **keys):
-    """The shipped section, packed loosely enough for few disks, with values set at paths such as stages__settle__ramp."""
+    """The shipped section, packed loosely enough for few disks, with values set at paths such as
+    stages__settle__ramp.
+    """
     data = yaml.safe_load(SHIPPED.read_text())
     for way, value in {"disks__packing_fraction": 0.8, **keys}.items():
         *way, last = way.split("__")
@@ -33,7 +37,9 @@ def written(path, **keys):
 
 @pytest.fixture(scope="module")
 def failed(tmp_path_factory):
-    """A run on a plane without friction, of rock without strength, which slides as soon as gravity has grown: its folder and what the command said."""
+    """A run on a plane without friction, of rock without strength, which slides as soon as gravity has grown: its
+    folder and what the command said.
+    """
     folder = tmp_path_factory.mktemp("dry")
     source = written(
         folder / "weak.yaml",
@@ -114,7 +120,9 @@ def test_the_failure_is_found_also_where_it_comes_at_rest_or_late():
 
 
 class Stub:
-    """What the course asks of the solver, of the water and of a wall's material, and the names of what it has them do."""
+    """What the course asks of the solver, of the water and of a wall's material, and the names of what it has them
+    do.
+    """
 
     def __init__(self):
         self.height, self.times, self.heights, self.tolerance, self.contacts, self.done = 0.0, [], [], 0.0, 900, []

@@ -1,4 +1,6 @@
-"""Slopes that are pressed: dense, touching, at rest under the pull that presses them, as thick as the section; the same with a cache, in a mirror and at another size."""
+"""Slopes that are pressed: dense, touching, at rest under the pull that presses them, as thick as the section; the same
+with a cache, in a mirror and at another size.
+"""
 
 import dataclasses
 import math
@@ -44,8 +46,9 @@ def touching(packed, gap=1e-3):
 
 
 def test_it_is_denser_and_more_disks_touch(made):
-    """A loose frictionless packing has its last per cent to go (0.848 packed, 0.857 pressed by gravity); packed, no pair touches to 1e-4, pressed four per disk do but for
-    rattlers: 2 N contacts are what N disks without friction are held by, a tenth of them loose."""
+    """A loose frictionless packing has its last per cent to go (0.848 packed, 0.857 pressed by gravity); packed, no
+    pair touches to 1e-4, pressed four per disk do but for rattlers: 2 N contacts are what N disks without friction are
+    held by, a tenth of them loose."""
     before, after, _ = made
     denser = packing.packing_fraction(after, SHIPPED.outline) / packing.packing_fraction(before, SHIPPED.outline)
     assert 1.003 < denser < 1.013
@@ -53,7 +56,9 @@ def test_it_is_denser_and_more_disks_touch(made):
 
 
 def test_it_is_as_thick_as_the_section(made):
-    """Area of the disks by that of the layers and the bulk's fraction, less the looser strips along walls: within half a per cent of a packing that is not pressed."""
+    """Area of the disks by that of the layers and the bulk's fraction, less the looser strips along walls: within half
+    a per cent of a packing that is not pressed.
+    """
     _, after, _ = made
     plain = packing.cached_pack(dataclasses.replace(SHIPPED, pressed=False))
     thick = [math.pi * np.sum(p.r**2) / packing.packing_fraction(p, SHIPPED.outline) for p in (after, plain)]
@@ -64,7 +69,9 @@ def test_it_is_as_thick_as_the_section(made):
 
 
 def test_walls_bear_what_presses(made):
-    """Sum of the pulls, which hold each other but for the walls: to 2 % of it, what the slowest disks still move by. Nothing is borne by friction."""
+    """Sum of the pulls, which hold each other but for the walls: to 2 % of it, what the slowest disks still move by.
+    Nothing is borne by friction.
+    """
     before, after, forces = made
     way, _ = free_surface.inward(SHIPPED, after.x, after.y)
     weight = SHIPPED.materials["rock"].density * math.pi * after.r**2 * SHIPPED.gravity
@@ -95,7 +102,9 @@ def test_radii_and_layers_are_those_of_the_packing_and_layers_stay_in_place(made
     ],
 )
 def test_pressing_ends_when_the_mean_depth_grows_no_more_at_any_size(monkeypatch, size, growth, looks):
-    """Depths are made up: of a slope of any size they grow by the same shares, and as many looks, √(H/g) apart, are made."""
+    """Depths are made up: of a slope of any size they grow by the same shares, and as many looks, √(H/g) apart, are
+    made.
+    """
     made = dataclasses.replace(section.load(str(SMALL)), pressed=True)
     packed = packing.Packing(np.zeros(3), np.arange(3.0), np.array([1.0, 2.0, 1.0]), np.zeros(3, int))
     depths = [size * np.array([1.0, 2.0, 4.0])]
@@ -133,7 +142,9 @@ def test_it_is_kept_and_a_mirrored_and_a_similar_slope_have_it_too(tmp_path, mon
 
 
 def test_all_shipped_sections_can_be_pressed():
-    """With a thousand disks each. What lies loose on a slope may be thrown off it: in six packings of one section up to 8 of 1,500 disks."""
+    """With a thousand disks each. What lies loose on a slope may be thrown off it: in six packings of one section up to
+    8 of 1,500 disks.
+    """
     for name in section.shipped():
         s = dataclasses.replace(section.load(name), pressed=True)
         s = s.with_disks(1500 if name == "interface" else 600)
@@ -174,7 +185,9 @@ def test_each_disk_is_drawn_by_its_weight():
 
 
 def test_a_pressed_packing_is_kept_for_what_made_it():
-    """Gravity, the step, the path and the search of neighbours decide its bits, and so does the seed, which is the section's if none is said."""
+    """Gravity, the step, the path and the search of neighbours decide its bits, and so does the seed, which is the
+    section's if none is said.
+    """
     one = section.load(str(SMALL))
     n = one.numerics
     others = [
@@ -195,7 +208,9 @@ def test_a_pressed_packing_is_kept_for_what_made_it():
 
 
 def test_it_is_pressed_for_twelve_falls_at_most(monkeypatch):
-    """√(H/g) each, H the greatest depth; at once where nothing may go deeper, and after all twelve where every step counts."""
+    """√(H/g) each, H the greatest depth; at once where nothing may go deeper, and after all twelve where every step
+    counts.
+    """
     small = section.load(str(SMALL))
     plain = packing.cached_pack(small)
     fall = math.sqrt(free_surface.inward(small, plain.x, plain.y)[1].max() / small.gravity)

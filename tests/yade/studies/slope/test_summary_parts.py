@@ -1,5 +1,5 @@
-"""Parts of a summary that made-up slopes of other kinds need: a table that falls, walls without losses, beds, no backstop, soft contacts, a slope to the left; and what a
-run leaves in its folder. Needs no YADE."""
+"""Parts of a summary that made-up slopes of other kinds need: a table that falls, walls without losses, beds, no
+backstop, soft contacts, a slope to the left; and what a run leaves in its folder. Needs no YADE."""
 
 import dataclasses
 import math
@@ -35,7 +35,9 @@ def changed(**columns):
 
 # ---- water --------------------------------------------------------------------------------------------
 def test_the_highest_water_is_not_the_last(tmp_path):
-    """A table that rises to 12 m at 34 s and is let down to 3 m; and one that fell before it rose, and was highest while it settled, before t0."""
+    """A table that rises to 12 m at 34 s and is let down to 3 m; and one that fell before it rose, and was highest
+    while it settled, before t0.
+    """
     falls = changed(water_m=lambda t: np.interp(t, (10, 34, 50, 60), (0, 12, 12, 3)))
     found = summary_of(tmp_path, series=falls)
     assert found["water_highest_m"] == pytest.approx(12.0, rel=SAME)
@@ -189,8 +191,8 @@ def test_a_mirrored_slope_has_the_same_summary(tmp_path):
 
 # ---- beds ---------------------------------------------------------------------------------------------
 def bedded(side=1):
-    """The shipped section whose lowest layer is a bed of 1000 kg/m³ and disks of 2 to 8 m, √(2 · 8) m in the mean, and whose second is an obstacle; the others are the
-    mass, of 2000 kg/m³ and disks of 1 to 4 m, 2 m in the mean."""
+    """The shipped section whose lowest layer is a bed of 1000 kg/m³ and disks of 2 to 8 m, √(2 · 8) m in the mean, and
+    whose second is an obstacle; the others are the mass, of 2000 kg/m³ and disks of 1 to 4 m, 2 m in the mean."""
     disks = dataclasses.replace(SHIPPED.disks, d_min=2.0, d_max=8.0, distribution="uniform_by_volume")
     bed = dataclasses.replace(SHIPPED.layers[0], role="bed", material="gravel", disks=disks)
     house = dataclasses.replace(SHIPPED.layers[1], role="obstacle")
@@ -205,8 +207,8 @@ def bedded(side=1):
 
 @pytest.mark.parametrize("side", [1, -1])
 def test_what_a_bed_gives_and_what_lies_beyond_the_foot(tmp_path, side):
-    """Disks of a bed whose mean diameter is 4 m are entrained once they went 8 m, along a slanting way; disks of the mass never are. Deposited is of the mass alone what lies beyond the foot,
-    at x = 0."""
+    """Disks of a bed whose mean diameter is 4 m are entrained once they went 8 m, along a slanting way; disks of the
+    mass never are. Deposited is of the mass alone what lies beyond the foot, at x = 0."""
     way = np.array([0.6, -0.8])
     start, moved, layer, r = (
         np.array([[-100, 90], [-90, 80], [-80, 70], [-70, 60], [-60, 50], [-50, 40], [-9, 9]], float),
@@ -258,7 +260,9 @@ HALF = (
     [("settle", ("t0.npz", "end.npz")), ("dry", ("t0.npz", "end.npz")), ("water", ("end.npz",)), ("done", ())],
 )
 def test_a_resumed_run_forgets_what_it_has_not_reached(tmp_path, stage, gone):
-    """At step 100: the snapshot of step 150 is of later; t0's is of later before the water rises, and the end's before the end. What is half-written goes, all else stays."""
+    """At step 100: the snapshot of step 150 is of later; t0's is of later before the water rises, and the end's before
+    the end. What is half-written goes, all else stays.
+    """
     whole = (*LEFT, *OTHERS, "t0.npz", "end.npz", "summary.json")
     for name in (*whole, *HALF):
         (tmp_path / name).parent.mkdir(exist_ok=True)

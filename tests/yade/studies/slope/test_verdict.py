@@ -45,7 +45,9 @@ def test_a_slope_that_slid_and_was_held_has_not_stood(side):
 
 
 def test_a_slide_has_the_water_of_its_own_time_and_not_the_highest():
-    """Down 2 % of the size from 20 s to 30 s: 1 % at 25 s, where the table, which rises by 0.5 m/s from 10 s to 30.5 s, is at 7.5 m."""
+    """Down 2 % of the size from 20 s to 30 s: 1 % at 25 s, where the table, which rises by 0.5 m/s from 10 s to 30.5 s,
+    is at 7.5 m.
+    """
     said = of(moving=None, columns=slid(0.02)).says
     assert said.endswith(
         "; it had slid by 1 % of its size at 25.0 s, with the water table at 7.5 m and 110 disks wet (20 %)"

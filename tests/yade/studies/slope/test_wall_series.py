@@ -1,4 +1,6 @@
-"""Rows of walls, interfaces and obstacles, and sums by role, for a few disks placed by hand on walls of several pieces: weights, friction and momentum say what is right."""
+"""Rows of walls, interfaces and obstacles, and sums by role, for a few disks placed by hand on walls of several pieces:
+weights, friction and momentum say what is right.
+"""
 
 import dataclasses
 import math
@@ -17,7 +19,9 @@ G, DENSITY, FRICTION = 9.81, 2500.0, 0.45
 
 
 def written(folder, change=lambda data: None, side=1):
-    """The small slope, of 25°, without water, with its plane in two walls of which one has a corner between its ends; nothing weakens. ``change(data)`` changes more."""
+    """The small slope, of 25°, without water, with its plane in two walls of which one has a corner between its ends;
+    nothing weakens. ``change(data)`` changes more.
+    """
 
     def both(data):
         del data["water"]
@@ -35,7 +39,9 @@ def written(folder, change=lambda data: None, side=1):
 
 
 class Placed:
-    """Disks in a section's scene, each (way up the slope from the foot, height of its centre above the plane, radius, layer); they may not turn."""
+    """Disks in a section's scene, each (way up the slope from the foot, height of its centre above the plane, radius,
+    layer); they may not turn.
+    """
 
     def __init__(self, made, disks, folder, world=None):
         up, off, r, layer = map(np.array, zip(*disks))
@@ -77,7 +83,9 @@ ON_THE_WALLS = [(3.0, 0.3, 0.3, 0), (8.0, 0.5, 0.5, 0), (13.0, 0.4, 0.4, 0), (31
 
 
 def test_a_wall_has_the_sum_of_all_its_pieces(tmp_path):
-    """Disks that slide on different pieces of two walls: N = m g cos β, T = μ N, and what sliding costs is T times the way, by the mean of the speeds before and after each step."""
+    """Disks that slide on different pieces of two walls: N = m g cos β, T = μ N, and what sliding costs is T times the
+    way, by the mean of the speeds before and after each step.
+    """
     placed = Placed(written(tmp_path), ON_THE_WALLS, tmp_path)
     built = placed.built
     assert len(built.walls["lower"]) > 3 and len(built.walls["upper"]) > 2
@@ -160,7 +168,9 @@ def weakening(data):
 
 @pytest.mark.parametrize("soft", [False, True])
 def test_the_slip_of_several_walls_is_the_mean_over_their_disks(tmp_path, soft):
-    """Three disks on one wall and one on the other: each has slipped as far as it has gone, and the mean of all is that over four disks, not over two walls."""
+    """Three disks on one wall and one on the other: each has slipped as far as it has gone, and the mean of all is that
+    over four disks, not over two walls.
+    """
     made = written(tmp_path, weakening)
     world = worlds.Soft(stiffness=1e8, diameter=(0.6, 1.0), damping=0.0) if soft else None
     # springs, of E R and 0.3 E R, bear a disk once it overlaps, here by its weight, and give way before it slides
@@ -205,7 +215,9 @@ def test_where_nothing_weakens_no_slip_counts(tmp_path):
 
 # ---- interfaces and obstacles ---------------------------------------------------------------------
 def two_on_one(data):
-    """Beside L2 a layer L3, both on L1, each with an interface of its own: of μ = 0.2, and of 0.6 that falls with slip."""
+    """Beside L2 a layer L3, both on L1, each with an interface of its own: of μ = 0.2, and of 0.6 that falls with
+    slip.
+    """
     rock = data["layers"][1]
     rock["vertices"] = [[0.845, 1.8125], [-1.029, 4.893], [-17.6695, 12.6526], [-17.155, 10.206]]
     other = [[-17.155, 10.206], [-17.6695, 12.6526], [-34.31, 20.4122], [-35.155, 18.5995]]
@@ -226,7 +238,9 @@ def two_on_one(data):
 @pytest.mark.parametrize("side", [1, -1])
 @pytest.mark.parametrize("lean", [0.05, -0.05])
 def test_each_interface_of_a_layer_has_its_own_law(tmp_path, side, lean):
-    """Two disks of L1 that are held, and on each one of L2 or L3 that slides down the slope, a little before or behind its crest: so the upper one has the higher id or the lower."""
+    """Two disks of L1 that are held, and on each one of L2 or L3 that slides down the slope, a little before or behind
+    its crest: so the upper one has the higher id or the lower.
+    """
     made = written(tmp_path, two_on_one, side)
     lower, upper = [(6.0, 5.0, 0.5, 0), (20.0, 5.0, 0.5, 0)], []
     for k, (up, off, *_) in enumerate(lower):
@@ -250,7 +264,8 @@ def test_each_interface_of_a_layer_has_its_own_law(tmp_path, side, lean):
         told = [rows[name][f"{what}_N_per_m"] for what in ("normal", "shear", "normal_peak")]
         assert told == pytest.approx([on_upper @ normal, -(on_upper @ down), on_upper @ normal], rel=1e-6)
         assert -(on_upper @ t) == pytest.approx(friction * (on_upper @ n), rel=1e-6) and on_upper @ n > 0
-    # the role of the first alone is that of a slip surface, and it lies above those of the plane, on which nothing lies here
+    # the role of the first alone is that of a slip surface, and it lies above those of the plane, on which nothing lies
+    # here
     assert set(surfaces) == {"upper", "lower", "first"} and found["slip"] == pytest.approx((0, 0, 0), abs=1e-9)
     assert surfaces["first"] == pytest.approx(
         [rows["first"][f"{w}_N_per_m"] for w in ("normal", "shear", "normal_peak")]
@@ -265,7 +280,9 @@ def test_each_interface_of_a_layer_has_its_own_law(tmp_path, side, lean):
 @pytest.mark.parametrize("side", [1, -1])
 @pytest.mark.parametrize("way", [1, -1])
 def test_an_obstacle_is_pushed_by_what_hits_it_alone(tmp_path, side, way):
-    """A disk of the obstacle lies on another and is hit by one of the mass, from upslope or from below, in the air. Its own contacts do not count, nor does a wall's."""
+    """A disk of the obstacle lies on another and is hit by one of the mass, from upslope or from below, in the air. Its
+    own contacts do not count, nor does a wall's.
+    """
 
     def house(data):
         vertices = [[17.0, 2.3764], [20.0, 2.4812], [20.0, 6.0], [17.0, 6.0]]

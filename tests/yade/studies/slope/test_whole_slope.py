@@ -1,4 +1,6 @@
-"""A slope from its first step to its rest within seconds: what it does, and every column of its series recomputed by hand."""
+"""A slope from its first step to its rest within seconds: what it does, and every column of its series recomputed by
+hand.
+"""
 import numpy as np
 import pytest
 from by_hand import Known
@@ -70,7 +72,9 @@ def test_a_column_is_what_the_steps_say(known, name):
 
 
 def test_snapshots_tell_who_is_wet_released_and_weakened(whole, known):
-    """Disk by disk, by hand from the steps; some that have gone the distance were never below the table, and are not released."""
+    """Disk by disk, by hand from the steps; some that have gone the distance were never below the table, and are not
+    released.
+    """
     by_hand = {name: getattr(known, name)()[known.last] for name in ("wet", "ever_wet", "released", "moved")}
     weakened, seen = known.weakened(), np.zeros(3, int)
     for path in sorted((whole.folder / "snapshots").glob("*.npz")):

@@ -29,7 +29,9 @@ class Summary:
         return 315
 
     def bonds_initial(self):
-        """Close neighbours within a layer, and disks close to the backstop, in the packing: gaps of a twentieth of the mean diameter, or of the diameter."""
+        """Close neighbours within a layer, and disks close to the backstop, in the packing: gaps of a twentieth of the
+        mean diameter, or of the diameter.
+        """
         made = self.known.watch
         x, y, r, layer = (*(self.known.before[name][0] for name in "xy"), made.r, self.begin.layer)
         i, j = np.triu_indices(len(r), 1)
@@ -48,7 +50,9 @@ class Summary:
         return int(((rows[:, 2] != 0) | (rows[:, 7] <= 0)).sum())
 
     def packing_fraction(self):
-        """Of the bulk: what is further than the largest diameter from the outline. Disks of a fine grid's points that are covered."""
+        """Of the bulk: what is further than the largest diameter from the outline. Disks of a fine grid's points that
+        are covered.
+        """
         k, bulk = self.known.settled, self.section.outline.buffer(-2 * self.known.watch.r.max(), join_style=2)
         x, y, r = self.known.after["x"][k], self.known.after["y"][k], self.known.watch.r
         px, py = (v.ravel() for v in np.meshgrid(np.arange(-40, 3, 0.05), np.arange(-1, 22, 0.05)))
@@ -258,7 +262,9 @@ class Summary:
         return self.toe_bands(self.begin, self.snapshot("t2"))
 
     def toe_bands(self, before=None, after=None):
-        """From the snapshots of t1 and t3; the rock's angle of friction is 35°, and the toe has too few disks to say that there are not two bands."""
+        """From the snapshots of t1 and t3; the rock's angle of friction is 35°, and the toe has too few disks to say
+        that there are not two bands.
+        """
         before, after = before or self.snapshot("t1"), after or self.snapshot("t3")
         found = [
             b
@@ -288,7 +294,9 @@ class Summary:
         return self.rows["speed_mean_m_per_s"].max()
 
     def profile(self, snapshot):
-        """Heights of the surface over the lowest wall in bins of three mean diameters, NaN where few disks are; and their width."""
+        """Heights of the surface over the lowest wall in bins of three mean diameters, NaN where few disks are; and
+        their width.
+        """
         width, low = 6 * snapshot.r.mean(), (snapshot.x - snapshot.r).min()
         at, heights = ((snapshot.x - low) / width).astype(int), []
         number = np.bincount(at)
@@ -315,7 +323,9 @@ class Summary:
         return np.nanmax(height[x > 0.845])
 
     def travel(self):
-        """Drop and run of the extreme points: a thousandth of the area may be ahead of the front, which no disk of 315 is alone."""
+        """Drop and run of the extreme points: a thousandth of the area may be ahead of the front, which no disk of 315
+        is alone.
+        """
         front = np.argmax(self.end.x)
         crown = np.argmax(self.begin.y + self.begin.r)
         top, foot = self.begin.y[crown] + self.begin.r[crown], self.end.y[front] - self.end.r[front]
@@ -412,7 +422,8 @@ class Summary:
         return self.fb_force_at_failure_N_per_m() / self.toe().push_N_per_m
 
 
-#: Where a key's value is recomputed less exactly: how much less, relative. ``wall_s`` is a clock's, ``section`` and ``finished`` stand in tests of their own.
+#: Where a key's value is recomputed less exactly: how much less, relative. ``wall_s`` is a clock's, ``section`` and
+#: ``finished`` stand in tests of their own.
 # points of a grid, 0.05 m apart; sums over thousands of steps
 ROUGH = {"packing_fraction": 2e-3, "energy_error_rel": 1e-6}
 OTHERWISE = {"section", "finished", "wall_s"}

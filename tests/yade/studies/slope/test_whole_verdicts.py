@@ -1,4 +1,6 @@
-"""Small slopes that stand, collapse before the water, are shaken by a script, or run on soft contacts: what is said of them, and when they end."""
+"""Small slopes that stand, collapse before the water, are shaken by a script, or run on soft contacts: what is said of
+them, and when they end.
+"""
 
 import dataclasses
 import warnings
@@ -64,7 +66,8 @@ def test_a_slope_that_stands_ends_where_nothing_more_can_come(mirrored, size, tm
     run.run()
     summary, series = told(run), records.read_series(tmp_path / "series.csv")
     assert summary["verdict"] == "stood" and summary["finished"] and "disks wet (100 %)" in summary["verdict_says"]
-    # the highest disks' centres are some 5 m above the plane, and the table rises by 4 m/s; then it is still for 1.06 s and 0.3 s
+    # the highest disks' centres are some 5 m above the plane, and the table rises by 4 m/s; then it is still for 1.06 s
+    # and 0.3 s
     span = (series["time_s"][-1] - summary["times_s"]["t0"]) / np.sqrt(size)
     assert 2.2 < span < 5.0 < chosen.stages.end.time / np.sqrt(size) == pytest.approx(30.0)
     assert summary["water_highest_m"] > 5.0 * size and (series["wet_disks"][-2:] == summary["disks"]).all()
@@ -193,7 +196,9 @@ def test_soft_contacts_have_a_verdict_too(tmp_path):
     [("stood", None, False), ("not over", None, False), ("slid", None, True), ("failed by water", 9.0, True)],
 )
 def test_an_error_of_energy_is_told_of_a_slope_that_moved(kind, t4, told):
-    """Beside the little that a slope at rest turns over, any error is large: that of one that was stopped before it moved was told as 54."""
+    """Beside the little that a slope at rest turns over, any error is large: that of one that was stopped before it
+    moved was told as 54.
+    """
     from yade.nonsmooth.studies.slope import slope_command
 
     line = slope_command.number_line(
@@ -204,7 +209,9 @@ def test_an_error_of_energy_is_told_of_a_slope_that_moved(kind, t4, told):
 
 @pytest.mark.parametrize("terminal, told", [(False, [1.0, 4.0]), (True, [1.0, 2.0, 3.0, 4.0])])
 def test_progress_is_a_line_each_five_seconds_in_a_file_and_moves_on_a_terminal(monkeypatch, terminal, told):
-    """Four calls, 2 s of the clock from one to the next; a run that goes on for longer than foreseen has no more than all behind it."""
+    """Four calls, 2 s of the clock from one to the next; a run that goes on for longer than foreseen has no more than
+    all behind it.
+    """
     from yade.nonsmooth.studies.slope import slope_command
 
     bar, seen, now = slope_command.Bar(), [], [100.0]
