@@ -82,6 +82,19 @@ def test_nothing_lies_in_the_top_but_errors_contact_and_the_face():
     assert {p.name for p in PACKAGE.glob("*.py")} == {"__init__.py", "errors.py", "contact.py"}
 
 
+def test_tests_stand_in_folders_as_the_package_has_rooms():
+    """Besides those of the engines and of pages; a room with rooms in it has a folder of folders. No two files have one
+    name, by which the mutants find them.
+    """
+    tests = ROOT / "tests" / "yade"
+    files = sorted(path.relative_to(tests) for path in tests.rglob("test_*.py"))
+    folders = {".".join(path.parts[:-1]) for path in files} - {"", "dem", "documentation"}
+    known = {*rooms(), *(room.partition(".")[0] for room in rooms())}
+    assert folders - known == set()
+    assert {"model", "records", "world", "studies.slope", "judges"} <= folders
+    assert len({path.name for path in files}) == len(files) > 140
+
+
 def test_no_room_imports_from_one_below_it():
     """An order of all rooms that all imports keep has no circle between rooms either."""
     assert back_up(sources(), rooms()) == []
