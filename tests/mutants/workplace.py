@@ -246,9 +246,9 @@ class Server:
             else ["/usr/bin/python3", "tests/mutants/server.py"]
         )
         threads = ["--threads", "1"] if yade else []  # several work side by side
-        environment = {**CLEAN, "NONSMOOTH_BUILD": str(place.build)} | (
-            {} if yade else {"PYTHONPATH": str(place.build / "python")}
-        )
+        # what several files of tests use is found by the folder of conftest.py, which these do not read
+        plain = {"PYTHONPATH": os.pathsep.join(map(str, (place.build / "python", place.source / "tests" / "yade")))}
+        environment = {**CLEAN, "NONSMOOTH_BUILD": str(place.build)} | ({} if yade else plain)
         with open(place.folder / f"server-{'yade' if yade else 'plain'}.log", "w") as log:
             self._process = subprocess.Popen(
                 [str(c) for c in (*program, asks[0], answers[1], *threads)],

@@ -5,7 +5,9 @@ A World is plain data in one frame. `play` builds it in a Frame, runs it, and re
 it, so that a test reads
     assert_same(play(world, Frame(turn=0.7)), play(world), 1e-11)
 """
+import sys
 from dataclasses import dataclass, field, replace
+from pathlib import Path
 
 import numpy as np
 from yade import O
@@ -351,12 +353,14 @@ def saved_and_loaded(path):
 def on_threads(module, folder, threads):
     """The course of a test module's WORLD, in a process of its own with so many threads for each engine."""
     script, found = folder / "threads.py", folder / f"{threads}.npz"
+    home = str(Path(sys.modules[module].__file__).parent)
     script.write_text(
         f"""
 import os, sys
 import numpy as np
 from yade import O
 from symmetries import play
+sys.path.insert(0, {home!r})
 from {module} import WORLD
 def asked(ids):
     for e in O.engines:

@@ -191,7 +191,7 @@ def test_a_course_of_measurements_makes_its_folders(tmp_path, monkeypatch):
         return 3.0
 
     monkeypatch.setattr(course.processes, "call", call)
-    made = course.Course(tmp_path / "new" / "out", 100.0, lambda *arguments: None)
+    made = course.MeasuringCourse(tmp_path / "new" / "out", 100.0, lambda *arguments: None)
     for gone in (30.0, 60.0):
         assert made.call("sweeps", 30.0, "module:name", {"disks": 3}, threads=2) == 3.0 and made.gone == gone
     assert asked == [("module:name", tmp_path / "new" / "out" / "runs" / "sweeps", {"disks": 3}, 2, False)] * 2
