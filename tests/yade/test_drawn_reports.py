@@ -232,6 +232,12 @@ def test_a_campaign_draws_its_first_seed_and_the_sample_nearest_8_megapascals(ke
     assert int(turned[0][3:5], 16) > int(turned[1][3:5], 16)
     (sample,) = kept["force_chains.png"].axes
     assert sample.get_title() == "ε₁ = 1 %, σ₃ = 6 MPa" and drawn.disks(sample)[0][2].tolist() == [9, 5]
+    # a test of less than 1 % of strain has its end alone
+    for name in ("1", "2"):
+        (tmp_path / "tests" / "6MPa-seed3" / "snapshots" / f"{name}.npz").unlink()
+    laboratory_report.draw(tmp_path, {"tests": tests, "seeds": [3, 4], **envelope})
+    only, _ = kept["bands.png"].axes
+    assert only.get_title() == "end, σ₃ = 6 MPa" == kept["force_chains.png"].axes[0].get_title()
     # ParaView's frames in the course of time
     listed = (tmp_path / "tests" / "20MPa-seed4" / "vtk" / "biaxial.pvd").read_text()
     assert [

@@ -116,7 +116,8 @@ def _pictures(test, frames, out):
     title = (
         lambda name: f"{'end' if name == 'end' else f'ε₁ = {name} %'}, σ₃ = {test['confining_Pa'] / 1e6:g} MPa"
     )  # noqa: E731
-    panels = [(title(name), frames[name]) for name in (order[0], order[-1])]
+    # a test that ends before the first of these strains has one state
+    panels = [(title(name), frames[name]) for name in dict.fromkeys((order[0], order[-1]))]
     return [
         figures.rotations(frames["begin"], panels, out / "bands.png"),
         figures.chains(frames[order[0]], panels[0][0], out / "force_chains.png"),
