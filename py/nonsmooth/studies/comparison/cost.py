@@ -246,7 +246,6 @@ def run(
         folder = measuring.home / name
         known = kept(folder, key, function) if resume else None
         if known is None:
-            folder.mkdir(parents=True, exist_ok=True)
             known = measuring.call(name, seconds, function, arguments, threads)
             keep(folder, key, known, function)
         return known
