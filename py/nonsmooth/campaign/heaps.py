@@ -4,8 +4,9 @@
     from nonsmooth.heaps import column
 
     c = column.Column(disks=300, aspect=1.5)
-    runs = campaign.run_heaps({"hard": (c, {}), "soft": (c, dict(name="soft", stiffness=1e8))}, "out/columns",
-    threads=2) runs["hard"].summary["runout_rel"], runs["soft"].figure()
+    cases = {"hard": (c, {}), "soft": (c, dict(name="soft", stiffness=1e8))}
+    runs = campaign.run_heaps(cases, "out/columns", threads=2)
+    runs["hard"].summary["runout_rel"], runs["soft"].figure()
 """
 
 from __future__ import annotations

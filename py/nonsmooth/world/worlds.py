@@ -120,11 +120,10 @@ class Soft:
     """Springs at contacts, by one of YADE's own models.
 
     ``stiffness``: Young's modulus [Pa]; ``diameter``: smallest and largest of the disks [m]; ``model``, ``damping``,
-    ``shear_ratio``,
-    ``rolling_ratio``: see :func:`yade.nonsmooth.soft.equivalent`; ``step_share``: time step in units of its stability
-    limit;
-    ``fragile``: bonds break where they reach a threshold (YADE's own way, and JCFpm's only one); otherwise they yield
-    there as in the hard law, and break when they leave their ellipse; ``verlet`` as in :class:`Hard`.
+    ``shear_ratio``, ``rolling_ratio``: see :func:`yade.nonsmooth.soft.equivalent`; ``step_share``: time step in units
+    of its stability limit; ``fragile``: bonds break where they reach a threshold (YADE's own way, and JCFpm's only
+    one); otherwise they yield there as in the hard law, and break when they leave their ellipse; ``verlet`` as in
+    :class:`Hard`.
     """
 
     stiffness: float

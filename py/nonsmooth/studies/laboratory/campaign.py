@@ -178,8 +178,14 @@ def bands_of(folder, snapshot):
 
 #: Numbers of a test that :func:`by_pressure` has means of, besides those of its bands and breaks.
 OF_TEST = (
-    *"strain_peak later_share dilatancy_deg volumetric_strain_end stress_fluctuation_rel".split(),
-    *("contractions_per_percent", "contraction_with_drop", *cycles.NUMBERS),
+    "strain_peak",
+    "later_share",
+    "dilatancy_deg",
+    "volumetric_strain_end",
+    "stress_fluctuation_rel",
+    "contractions_per_percent",
+    "contraction_with_drop",
+    *cycles.NUMBERS,
 )
 
 

@@ -45,8 +45,15 @@ FORCE_SAMPLES = 100  # of the forces on walls in a row, with soft contacts; each
 
 #: Columns that only a run of rigid disks has: of the contact solver, and of the energies that it sums up.
 OF_SOLVER = (
-    *("iterations", "residual", "residual_N_per_m", "tolerance", "energy_water_J", "energy_walls_J", *records.LOSSES),
-    *("energy_correction_J", "energy_error_rel"),
+    "iterations",
+    "residual",
+    "residual_N_per_m",
+    "tolerance",
+    "energy_water_J",
+    "energy_walls_J",
+    *records.LOSSES,
+    "energy_correction_J",
+    "energy_error_rel",
 )
 
 
