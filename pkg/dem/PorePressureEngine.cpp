@@ -140,6 +140,15 @@ void PorePressureEngine::preSave(PorePressureEngine&)
 		}
 }
 
+bool PorePressureEngine::wets(const Vector3r& place, const Vector3r& normal, Vector3r& perVolume) const
+{
+	if (!field) return !(height <= 0 || (place - planePoint).dot(normal) >= height);
+	const auto water = field->at(place);
+	if (!(water.pressure > 0)) return false;
+	perVolume = -water.gradient;
+	return true;
+}
+
 void PorePressureEngine::action()
 {
 	nscd::Turn turn(
@@ -157,12 +166,13 @@ void PorePressureEngine::action()
 	const Vector3r down      = gravity - gravity.dot(normal) * normal;
 	const Vector3r downhill  = down.norm() > 1e-9 * gravity.norm() ? Vector3r(down.normalized())
 	                                                               : Vector3r(Vector3r::Zero());
-	const Vector3r perVolume = pressureGradient != Vector3r::Zero() ? minusPressureGradient()
+	Vector3r       perVolume = pressureGradient != Vector3r::Zero() ? minusPressureGradient()
 	                                                                : Vector3r(unitWeight * cosDip * normal);
-	height                   = heightAt(scene->time);
+	height                   = field ? 0 : heightAt(scene->time);
 	wetCount                 = 0;
 	releasedCount            = 0;
 	totalForce               = Vector3r::Zero();
+	if (field) field->prepare(scene->time);
 
 	const auto&  bodies = turn.resident().bodies;
 	const size_t size   = bodies.size();
@@ -180,7 +190,7 @@ void PorePressureEngine::action()
 		const Vector3r place = b.place();
 		if (!moved[id] && (place - reference[id]).dot(downhill) > releaseDistance) moved[id] = 1;
 		releasedCount += isReleased(id);
-		if (moved[id] || height <= 0 || (place - planePoint).dot(normal) >= height) continue;
+		if (moved[id] || !wets(place, normal, perVolume)) continue;
 		const Vector3r force = perVolume * (volumeFactor * Mathr::PI * b.radius * b.radius * thickness);
 		scene->forces.addForce(id, force);
 		wet[id] = everWet[id] = 1;

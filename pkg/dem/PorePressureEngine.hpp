@@ -7,8 +7,10 @@
 // is for particles below the water table; a disk that moves so far while it is dry stays dry, wherever the table rises to.
 // Deviation: none by default. V is the disk's own volume (its sum is the packing fraction times γ_w h cos β per unit length);
 // volumeFactor = 1/(packing fraction) gives each disk its share of the pores as well.
+// With a field the pressure is that of any flow: −∇p of the triangle that a disk's centre is in, where p > 0 there.
 #pragma once
 
+#include "PorePressureField.hpp"
 #include <core/GlobalEngine.hpp>
 
 namespace yade {
@@ -51,11 +53,12 @@ Place it after :yref:`ForceResetter` and before :yref:`ContactDynamicsEngine`.)"
 		((vector<Real>,times,,,"Times [s] of the table of water heights, rising; between them the height is linear, outside them constant."))
 		((vector<Real>,heights,,,"Heights [m] of the water table above the plane at these times; none: dry."))
 		((Vector3r,pressureGradient,Vector3r::Zero(),,"Gradient ∇p of the pore pressure [N/m³], which grows downwards; the force is −∇p V. Zero: that of water which flows along the plane, −γ_w cos β along planeNormal (eq. 18)."))
+		((shared_ptr<PorePressureField>,field,,,"Pore pressure of any flow, instead of the table above a plane: times, heights, unitWeight and pressureGradient are not asked then, and planeNormal is upright to the way downslope."))
 		((Real,releaseDistance,5,,"Distance D_c [m] downslope after which water no longer acts on a body; infinite: it always does."))
 		((Real,volumeFactor,1,,"Volume on which the pressure gradient acts, in units of the body's own."))
 		((Real,thickness,1,,"Thickness [m] of the two-dimensional model."))
 		((int,mask,0,,"Only bodies whose groupMask shares a bit with this; 0: all spheres."))
-		((Real,height,0,(Attr::readonly|Attr::noSave),"Present height of the water table [m]."))
+		((Real,height,0,(Attr::readonly|Attr::noSave),"Present height of the water table [m]; 0 with a field."))
 		((int,wetCount,0,(Attr::readonly|Attr::noSave),"Bodies that water acts on."))
 		((int,releasedCount,0,(Attr::readonly|Attr::noSave),"Bodies released so far: that were wet and have moved further than releaseDistance."))
 		((Vector3r,totalForce,Vector3r::Zero(),(Attr::readonly|Attr::noSave),"Sum of the forces of the last step [N]."))
@@ -80,8 +83,10 @@ private:
 	// `0 -` leaves no negative zeros
 	Vector3r minusPressureGradient() const { return Vector3r::Zero() - pressureGradient; }
 	void     setGradient(const Vector3r& perVolume);
-	void     forgetOthers(const nscd::Resident& resident);
-	void     forgetWayOf(size_t id);
+	/// What acts on a body at a place, per volume; false where it is dry there.
+	bool wets(const Vector3r& place, const Vector3r& normal, Vector3r& perVolume) const;
+	void forgetOthers(const nscd::Resident& resident);
+	void forgetWayOf(size_t id);
 
 	std::vector<boost::weak_ptr<Body>> owners; // by id: whose way and water are noted; none after loading
 	std::weak_ptr<nscd::Resident>      lookedAt; // where bodies were compared with these, and

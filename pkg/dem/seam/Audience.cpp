@@ -2,6 +2,7 @@
 #include "../Advance.hpp"
 #include "../ContactDynamicsEngine.hpp"
 #include "../CourseRunner.hpp"
+#include "../GroundMotionEngine.hpp"
 #include "../NonsmoothTimeStepper.hpp"
 #include "../NscdInteractionLoop.hpp"
 #include "../PlanarGridCollider.hpp"
@@ -63,8 +64,8 @@ bool othersMayLook(const Scene& scene) { return Omega::instance().isRunning() ||
 bool takesTurns(const Engine& engine)
 {
 	return isOneOf<
-	        PlanarGridCollider, NscdInteractionLoop, PorePressureEngine, PlateLoadEngine, ContactDynamicsEngine,
-	        PlanarNewtonIntegrator>(engine);
+	        PlanarGridCollider, NscdInteractionLoop, PorePressureEngine, PlateLoadEngine, GroundMotionEngine,
+	        ContactDynamicsEngine, PlanarNewtonIntegrator>(engine);
 }
 
 bool mayAct(const Engine& engine, long iter, Real time, Real step)

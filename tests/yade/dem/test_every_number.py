@@ -18,11 +18,12 @@ from contact_scenes import G, begin, engine, floor, free_disk, material, run
 from shell import ROOT
 from soft_scenes import ROCK, WALL
 from yade import O, wrapper
-from yade.minieigenHP import Vector3
+from yade.minieigenHP import Vector3, Vector3i
 from yade.nonsmooth import scene, section, soft
 from yade.wrapper import (
     BondEllipseEngine,
     CourseRunner,
+    GroundMotionEngine,
     InsertionSortCollider,
     InteractionLoop,
     NewtonIntegrator,
@@ -32,6 +33,7 @@ from yade.wrapper import (
     PlanarGridCollider,
     PlanarNewtonIntegrator,
     PorePressureEngine,
+    PorePressureField,
     SlipWeakeningMat,
     WallForceEngine,
 )
@@ -221,6 +223,60 @@ def water():
         return force * (math.pi * 0.5**2 * wet.volumeFactor * wet.thickness)
 
     return looked(lambda: wet, bed, [low], push=lift)
+
+
+@acts("PorePressureField", lists=("nodes", "triangles", "times", "pressures"))
+def water_on_triangles():
+    """A disk on a floor, in a field of pressures that falls upwards and to the left as long as it stays alone."""
+    stuff = rough()
+    bed = floor(stuff)
+    low = disk(0, 0.5, stuff)
+    field = PorePressureField(
+        nodes=[(-9, -9, 0), (9, -9, 0), (0, 9, 0)],
+        triangles=[(0, 1, 2)],
+        times=[0, 1],
+        pressures=[9e3, 9e3, 0, 9e3, 9e3, 0],
+    )
+    begin(gravity=OBLIQUE, before=[PorePressureEngine(field=field)])
+
+    def lift():
+        pressure, gradient = field.at(O.bodies[low].state.pos, O.time - O.dt)  # as the step began
+        if pressure is None or pressure <= 0:
+            return Vector3(0, 0, 0)
+        return -gradient * math.pi * 0.5**2
+
+    return looked(lambda: field, bed, [low], push=lift)
+
+
+@acts("GroundMotionEngine", lists=("times", "horizontal", "vertical"))
+def shaken():
+    """A disk on a floor that begins to move."""
+    stuff = rough()
+    bed = floor(stuff)
+    low = disk(0, 0.5, stuff)
+    ground = GroundMotionEngine(times=[0, 1], horizontal=[0.5, 0.5], vertical=[0.25, 0.25])
+    begin(gravity=OBLIQUE, before=[ground])
+
+    def push():
+        return -O.bodies[low].state.mass * ground.acceleration
+
+    return looked(lambda: ground, bed, [low], push=push)
+
+
+@acts("GroundMotionEngine of a wall", lists=("ids",), only=("ids",))
+def shaken_wall():
+    """A floor that sinks, a little slower than disks fall; a disk on it, which is carried along."""
+    stuff = rough()
+    bed = floor(stuff)
+    low = disk(0, 0.5, stuff)
+    ground = GroundMotionEngine(times=[0, 1], vertical=[-1, -1], ids=[bed])
+    begin(gravity=(0, -G, 0), before=[ground])
+
+    def also():
+        assert (O.bodies[low].state.pos[1] - O.bodies[bed].state.pos[1]) == pytest.approx(0.5, abs=1e-6)
+        assert O.forces.f(bed)[1] == pytest.approx(-O.bodies[low].state.mass * (G - 1), rel=1e-6)
+
+    return looked(lambda: ground, also=also)
 
 
 @acts("PlateLoadEngine", lists=("between",))
@@ -528,6 +584,14 @@ INHERITED = {
 ELEMENTS = {
     ("PorePressureEngine", "times"): 0.0,
     ("PorePressureEngine", "heights"): 0.0,
+    ("PorePressureField", "nodes"): Vector3(0, 0, 0),
+    ("PorePressureField", "triangles"): Vector3i(0, 0, 0),
+    ("PorePressureField", "times"): 0.0,
+    ("PorePressureField", "pressures"): 0.0,
+    ("GroundMotionEngine", "times"): 0.0,
+    ("GroundMotionEngine", "horizontal"): 0.0,
+    ("GroundMotionEngine", "vertical"): 0.0,
+    ("GroundMotionEngine", "ids"): 0,
     ("PlateLoadEngine", "between"): 0,
     ("WallForceEngine", "ids"): 0,
     ("WallForceEngine", "along"): Vector3(0, 0, 0),
@@ -833,6 +897,17 @@ HARMLESS = {
     ("PorePressureEngine", "volumeFactor"): {0: "no volume is lifted"},
     ("PorePressureEngine", "thickness"): {0: "no volume is lifted"},
     ("PorePressureEngine", "mask"): {-1: "all groups", 0: "all spheres", MOST: "all groups"},
+    ("PorePressureField", "nodes[0][0]"): {-1: "another triangle", 0: "another triangle"},
+    ("PorePressureField", "nodes[0][1]"): {-1: "another triangle", 0: "another triangle"},
+    ("PorePressureField", "nodes[0][2]"): dict.fromkeys((NAN, INF, -1, 0, HUGE), "z is not read"),
+    ("PorePressureField", "times[0]"): {-1: "a time before the run", 0: AS_IT_IS},
+    ("PorePressureField", "pressures[0]"): {-1: "another pressure", 0: "another pressure"},
+    ("GroundMotionEngine", "times[0]"): {-1: "a record that has begun", 0: AS_IT_IS},
+    ("GroundMotionEngine", "horizontal[0]"): {-1: "a ground that first goes to the left", 0: "one that first stands"},
+    ("GroundMotionEngine", "vertical[0]"): {-1: "a ground that first sinks", 0: "one that first stands"},
+    ("GroundMotionEngine", "begin"): {-1: "a record that is over", 0: AS_IT_IS},
+    ("GroundMotionEngine", "scale"): {-1: "the other way", 0: "the ground stands still"},
+    ("GroundMotionEngine of a wall", "ids"): {0: AS_IT_IS},
     ("PlateLoadEngine", "direction[0]"): {
         -1: "an oblique push, of which what holds the plate takes its part",
         0: AS_IT_IS,

@@ -1,0 +1,92 @@
+#include "GroundMotionEngine.hpp"
+#include "Refusal.hpp"
+#include "YadeFeatures.hpp"
+#include "seam/Resident.hpp"
+#include <core/Scene.hpp>
+
+namespace yade {
+
+YADE_PLUGIN((GroundMotionEngine));
+
+namespace {
+	[[noreturn]] void refuse(const string& why) { throw std::invalid_argument("GroundMotionEngine: " + why); }
+
+	void checkNumbers(const char* name, const vector<Real>& values)
+	{
+		for (size_t k = 0; k < values.size(); ++k)
+			if (!nscd::isNumber(values[k]))
+				refuse(string(name) + "[" + std::to_string(k) + "] = " + nscd::number(values[k])
+				       + ": give a finite number");
+	}
+}
+
+void GroundMotionEngine::validate() const
+{
+	for (const auto& [name, values] :
+	     { std::pair("times", &times), std::pair("horizontal", &horizontal), std::pair("vertical", &vertical) })
+		checkNumbers(name, *values);
+	for (const auto& [name, values] : { std::pair("horizontal", &horizontal), std::pair("vertical", &vertical) })
+		if (!values->empty() && values->size() != times.size())
+			refuse(string(name) + " has " + std::to_string(values->size()) + " entries and times "
+			       + std::to_string(times.size()) + ": give an acceleration for each time, or none");
+	for (size_t k = 1; k < times.size(); ++k)
+		if (!(times[k] > times[k - 1]))
+			refuse("times[" + std::to_string(k - 1) + "] = " + nscd::number(times[k - 1]) + " and times["
+			       + std::to_string(k) + "] = " + nscd::number(times[k]) + ": times must rise");
+}
+
+const nscd::AccelerationRecord& GroundMotionEngine::record()
+{
+	for (const auto& [name, value] : { std::pair("begin", begin), std::pair("scale", scale) })
+		nscd::require(nscd::isNumber(value), "GroundMotionEngine", name, value, "finite");
+	if (!isMade) {
+		validate();
+		made   = { times, horizontal, vertical };
+		isMade = true;
+	}
+	return made;
+}
+
+Vector3r GroundMotionEngine::of(Pair (nscd::AccelerationRecord::*what)(double) const, Real time)
+{
+	return scaled((record().*what)(time - begin));
+}
+
+void GroundMotionEngine::action()
+{
+	nscd::Turn turn(
+	        *this,
+	        nscd::threadsOf(*this)); // first: a refusal shows what the engines before have left in the arrays
+	const Real now = scene->time - begin, next = now + scene->dt;
+	acceleration = scaled(record().mean(now, next));
+	velocity     = scaled(made.velocity(next));
+	displacement = scaled(made.displacement(next));
+	totalForce   = Vector3r::Zero();
+
+	auto& bodies = turn.resident().bodies;
+	for (const Body::id_t id : ids) {
+		if (id < 0 || id >= (Body::id_t)bodies.size() || !bodies[id].present)
+			refuse("ids has " + std::to_string(id) + ": there is no such body");
+		auto& b = bodies[id];
+		if ((b.blocked & nscd::inPlane) != nscd::inPlane)
+			refuse("ids has " + std::to_string(id)
+			       + ": that body is free to move; give walls, and others whose motion in the plane is blocked");
+		b.motion.velocity.x = velocity[0];
+		b.motion.velocity.y = velocity[1];
+		b.moved             = true;
+		if (!b.planar) (*scene->bodies)[id]->state->vel = velocity;
+	}
+	if (ids.empty() && acceleration != Vector3r::Zero())
+		for (size_t id = 0; id < bodies.size(); ++id) {
+			const auto& b = bodies[id];
+			if (!b.present || b.blocked == State::DOF_ALL
+			    || (b.clumped && (*scene->bodies)[id]->isClumpMember()))
+				continue;
+			const Vector3r force = -b.mass * acceleration;
+			scene->forces.addForce(id, force);
+			totalForce += force;
+		}
+	turn.end();
+}
+
+} // namespace yade
