@@ -175,6 +175,7 @@ LOOKED_AT = {
     "pkg/common/PyRunner": [],
     "pkg/common/Recorder": [],
     "lib/high-precision/Constants": [],
+    "lib/serialization/Serializable": [],  # the base of every class that is looked at
     # the runner of O.run()'s thread, which no macro changes
     "core/ThreadRunner": [],
     "lib/base/Math": [],
