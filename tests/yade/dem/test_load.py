@@ -327,6 +327,21 @@ def test_the_file_that_a_script_is(script):
     assert "file None\n" in result.stdout, result.stdout + result.stderr
 
 
+def test_a_script_does_not_wait_for_the_shell_of_a_prompt(script):
+    """YADE makes IPython's shell before each script; where no prompt follows, none is made, and the script still finds
+    all of IPython.
+    """
+    text = """
+        import sys
+        print("before", [name for name in sys.modules if name.partition(".")[0] in ("IPython", "prompt_toolkit", "jedi")])
+        import IPython, yade.runtime
+        from IPython.terminal.embed import InteractiveShellEmbed
+        print("after", InteractiveShellEmbed.__mro__[1].__name__, IPython.version_info[0] == yade.runtime.ipython_version // 100)
+        """
+    result = run([LAUNCHER, script(text)])
+    assert "before []" in result.stdout and "after TerminalInteractiveShell True" in result.stdout, result
+
+
 def test_script_started_as_it_is_finds_the_launcher(tmp_path, script):
     """The lines that every scripts/NAME.py begins with, as the launcher's comment gives them."""
     with open(LAUNCHER) as source:
