@@ -18,7 +18,6 @@ from pathlib import Path
 from yade import O
 from yade.nonsmooth import experiment, packing, records, section
 from yade.nonsmooth.measure import characteristic_times
-from yade.nonsmooth.studies.slope import slope
 
 sys.path.insert(0, os.path.dirname(os.path.realpath(__file__)))
 from deflated import deflate
@@ -42,7 +41,7 @@ def arguments():
 def run(disks, folder):
     """Runs the shipped section; returns the characteristic times [s] and the problems by their time [s]."""
     chosen = section.load("jiufengershan").with_disks(disks)
-    experiment_run = experiment.Experiment(slope.build(chosen, packing.cached_pack(chosen)), folder)
+    experiment_run = experiment.begin(chosen, folder, packing=packing.cached_pack(chosen))
     problems = {}
 
     def keep(stage, now, foreseen):

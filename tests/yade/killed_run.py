@@ -11,7 +11,6 @@ from pathlib import Path
 
 from yade.nonsmooth import commands, experiment, section
 from yade.nonsmooth.course import driver
-from yade.nonsmooth.studies.slope import slope, slope_packing
 
 source, disks, out, end, look = (
     sys.argv[1],
@@ -39,7 +38,7 @@ def main():
     if "--resume" in sys.argv:
         run = experiment.resume(chosen, out)
     else:
-        run = experiment.Experiment(slope.build(chosen, slope_packing.of(chosen)), out)
+        run = experiment.begin(chosen, out)
     run.run(end)
     if not look:
         out.with_suffix(".looks").write_text(str(seen))

@@ -12,7 +12,6 @@ import pytest
 from yade.nonsmooth import experiment, section
 from yade.nonsmooth.heaps import column, study
 from yade.nonsmooth.laboratory import biaxial, materials, pressing
-from yade.nonsmooth.studies.slope import slope, slope_packing
 
 from slope_scenes import write_quick
 
@@ -40,7 +39,7 @@ def slope_series(folder):
     going.
     """
     s = section.load(str(write_quick(folder))).with_disks(300)
-    experiment.Experiment(slope.build(s, slope_packing.of(s)), folder).run(end=0.1 * ROWS + 0.05)
+    experiment.begin(s, folder).run(end=0.1 * ROWS + 0.05)
     return folder / "series.csv"
 
 

@@ -106,6 +106,8 @@ CALLS = [
     ("section", lambda v: experiment.begin(v, "out"), (None, "circle", {}), "give a Section"),
     ("section", lambda v: experiment.resume(v, "out"), (None, "circle", {}), "give a Section"),
     ("folder", lambda v: experiment.begin(CIRCLE, v), (None, 3, [1], ""), "give the path of a folder"),
+    ("packing", lambda v: experiment.begin(CIRCLE, "out", packing=v), ("circle.txt", {}, 3), "give a Packing"),
+    ("world", lambda v: experiment.begin(CIRCLE, "out", world=v), ("soft", {}, 3), "give"),
     ("folder", lambda v: runs.open_run(v), (None, 3, [1]), "give the path of the folder of a run"),
     ("folder", lambda v: campaign.open_script(v), (None, 3, [1]), "give the path of the folder of a run"),
     ("folder", lambda v: campaign.open_heap(v), (None, 3, [1]), "give the path of the folder of a run"),

@@ -4,6 +4,7 @@ from mutant import mutant
 PY = "py/nonsmooth/"
 WALLS = "pkg/dem/WallForceEngine.cpp"
 COURSE, RESULTS, TABLES = (PY + name for name in ("studies/slope/experiment.py", "studies/slope/results.py", "world/tables.py"))
+MONITOR, ATTACHED = PY + "studies/slope/monitoring.py", PY + "studies/slope/attached.py"
 SERIES, BREAKS = (PY + f"records/{name}.py" for name in ("series", "breaks"))
 TIMES = PY + "measure/characteristic_times.py"
 SCALES, SLOPE, WORLDS, TOE = (PY + name for name in ("model/scales.py", "studies/slope/slope.py", "world/worlds.py", "measure/toe.py"))
@@ -40,7 +41,7 @@ MUTANTS = (
            "test_beds.py::test_a_slip_wall_above_another_is_no_part_of_the_sum"),
     mutant("stacks-sum", PY + "studies/slope/wall_series.py", "one.name for one in section.lowest_surfaces", "one.name for one in section.sliding", "a slope's weight counts once for each of its slip surfaces",
            "test_beds.py::test_of_two_slip_surfaces_one_above_the_other_each_bears_its_own_weight"),
-    mutant("stacks-water", COURSE, "wet[part] if part.dtype == bool else wet * part", "wet", "each slip surface bears the water of all",
+    mutant("stacks-water", MONITOR, "wet[part] if part.dtype == bool else wet * part", "wet", "each slip surface bears the water of all",
            "test_beds.py::test_of_two_slip_surfaces_one_above_the_other_each_bears_its_own_weight"),
     # ---- units
     mutant("units-friction", PY + "model/section/units.py", "value > STEEPEST", "value > 100 * STEEPEST", "a friction in degrees is taken", "plain:test_section_units.py"),
@@ -77,11 +78,11 @@ MUTANTS = (
            "plain:test_course.py::test_snapshots_are_every_fifth_row_once_it_counts"),
     mutant("course-slip", COURSE, "self.walls.forget_slip()", "pass", "slip while settling counts",
            "test_slope_course.py::test_what_the_course_decides_is_done"),
-    mutant("row-total", COURSE, '"dp_normal_total_N_per_m": dp[0] + u', '"dp_normal_total_N_per_m": dp[0] - u', "water lowers the total force on the plane",
+    mutant("row-total", MONITOR, '"dp_normal_total_N_per_m": dp[0] + u', '"dp_normal_total_N_per_m": dp[0] - u', "water lowers the total force on the plane",
            column("dp_normal_total_N_per_m"), slow=True),
-    mutant("row-water", COURSE, "total[1] * section.water.normal[1]", "total[1] * section.water.normal[0]", "the water's force is taken along a wrong normal",
+    mutant("row-water", MONITOR, "total[1] * section.water.normal[1]", "total[1] * section.water.normal[0]", "the water's force is taken along a wrong normal",
            column("dp_water_N_per_m"), slow=True),
-    mutant("row-released", COURSE, "water.releasedCount if water else 0", "water.wetCount if water else 0", "wet disks are counted as released", column("released_disks"),
+    mutant("row-released", MONITOR, "water.releasedCount if water else 0", "water.wetCount if water else 0", "wet disks are counted as released", column("released_disks"),
            slow=True),
     mutant("snapshot-weakened", PY + "studies/slope/wall_series.py", ">= laws[one.name].criticalSlip", "> 0", "disks are weakened as soon as they slip",
            "test_whole_slope.py::test_snapshots_tell_who_is_wet_released_and_weakened", slow=True),
@@ -91,9 +92,9 @@ MUTANTS = (
            "slips are those of other disks", "test_contact_law.py::test_friction_and_cohesion_fall_by_the_law_of_their_wall"),
     mutant("row-broken", TABLES, 'getattr(engine, f"broken{mode.capitalize()}")', "engine.brokenTension", "bonds broken in tension are counted as sheared",
            column("bonds_broken_shear"), slow=True),
-    mutant("row-rolling", COURSE, '"energy_rolling_J": e.rollingLoss', '"energy_rolling_J": e.slidingLoss', "what rolling costs is what sliding costs",
+    mutant("row-rolling", MONITOR, '"energy_rolling_J": e.rollingLoss', '"energy_rolling_J": e.slidingLoss', "what rolling costs is what sliding costs",
            column("energy_rolling_J"), slow=True),
-    mutant("row-peak", COURSE, '"ss_normal_peak_N_per_m": ss[2]', '"ss_normal_peak_N_per_m": fb[2]', "the peak on SS is that on FB", column("ss_normal_peak_N_per_m"),
+    mutant("row-peak", MONITOR, '"ss_normal_peak_N_per_m": ss[2]', '"ss_normal_peak_N_per_m": fb[2]', "the peak on SS is that on FB", column("ss_normal_peak_N_per_m"),
            slow=True),
     # ---- snapshots of characteristic times
     mutant("kept-records", TIMES, "record = push > np.append(-np.inf, best[:-1])", "record = push >= best[-1]", "of the rows that may be t1 the largest force's alone is kept",
@@ -150,7 +151,13 @@ MUTANTS = (
            "plain:test_course.py::test_a_slope_that_stands_under_its_last_load_ends_its_run"),
     mutant("course-quiet", RULES, "(s.quiet_broken, s.quiet_wet) == (seen.broken, seen.wet)", "s.quiet_wet == seen.wet", "a run ends while bonds break",
            "plain:test_course.py::test_as_long_as_anything_goes_on_it_does_not_end"),
-    mutant("experiment-brought", COURSE, 'brought = 0.0 if self.state.stage == "settle" else abs(e.broughtEnergy)', "brought = 0.0", "nobody sees that a script shook the slope",
+    mutant("begin-rows", COURSE, "O.dt = row / math.ceil(row / O.dt)", "pass", "rows of soft contacts come when they like",
+           "test_repeated_runs.py::test_a_soft_run_begins_with_a_packing_of_ones_own_and_rows_of_the_rigid_one"),
+    mutant("begin-packing", COURSE, "slope_packing.of(section) if packing is None else packing", "slope_packing.of(section)", "a packing that is given is not taken",
+           "test_repeated_runs.py::test_a_soft_run_begins_with_a_packing_of_ones_own_and_rows_of_the_rigid_one"),
+    mutant("begin-damping", COURSE, "progress=progress, damping_moving=damping_moving)", "progress=progress)", "a slope that moves keeps the damping of one at rest",
+           "test_repeated_runs.py::test_a_soft_run_begins_with_a_packing_of_ones_own_and_rows_of_the_rigid_one"),
+    mutant("experiment-brought", MONITOR, 'brought = 0.0 if state.stage == "settle" else abs(e.broughtEnergy)', "brought = 0.0", "nobody sees that a script shook the slope",
            "test_whole_verdicts.py::test_a_slope_that_a_script_shook_has_not_failed_dry"),
     mutant("verdict-slid", PY + "studies/slope/verdict.py", "ways[-1] < far:", "True:", "a slope that slid and was held has stood",
            "plain:test_verdict.py::test_a_slope_that_slid_and_was_held_has_not_stood"),
@@ -249,7 +256,7 @@ MUTANTS = (
            "forces across an interface are turned the wrong way", "test_beds.py::test_an_interface_bears_what_lies_on_it"),
     mutant("wall-inside", PY + "studies/slope/wall_series.py", "(one == k) & (other != k) & (other >= 0)", "(one == k) & (other >= 0)", "an obstacle's own contacts push it",
            "test_beds.py::test_what_hits_an_obstacle_pushes_it"),
-    mutant("bed-front", COURSE, "front_of(t[\"x\"][chosen], t[\"r\"][chosen], self.section.side)", "front_of(t[\"x\"], t[\"r\"], self.section.side)",
+    mutant("bed-front", MONITOR, "front_of(t[\"x\"][chosen], t[\"r\"][chosen], self.section.side)", "front_of(t[\"x\"], t[\"r\"], self.section.side)",
            "the edge of the bed is the front", "test_beds.py::test_the_mass_is_counted_apart_from_its_bed"),
     mutant("bed-entrained", PY + "studies/slope/results.py", "(bed & moved, bed,", "(moved, bed,", "the mass is entrained too", "test_beds.py::test_the_mass_is_counted_apart_from_its_bed"),
     mutant("flat-sides", PY + "packing/__init__.py", "found += [(above, upper), (below, lower)]", "found += [(above, lower), (below, upper)]", "disks are packed on the wrong side of an interface",
@@ -412,9 +419,9 @@ MUTANTS = (
            "test_driver.py::test_ctrl_c_ends_it_after_the_row_with_a_checkpoint_and_it_goes_on"),
     mutant("driver-share", DRIVER, "self._saving / CHECKPOINT_SHARE", "self._saving", "checkpoints take whatever time they want",
            "test_driver.py::test_checkpoints_come_by_wall_time_and_take_a_fiftieth_of_it"),
-    mutant("run-end-passed", "py/nonsmooth/studies/slope/experiment.py", "            if _come_to(end):\n", "            if end < 0:\n", "an end that has passed is taken in silence",
+    mutant("run-end-passed", "py/nonsmooth/studies/slope/experiment.py", "            if come_to(end):\n", "            if end < 0:\n", "an end that has passed is taken in silence",
            "test_repeated_runs.py::test_an_end_without_sense_is_refused_and_the_run_goes_on_with_another"),
-    mutant("run-row-due", "py/nonsmooth/studies/slope/experiment.py", "if not self.runner.dead and _come_to(self.runner.nextTime):", "if self.runner.dead:",
+    mutant("run-row-due", ATTACHED, "if not runner.dead and come_to(runner.nextTime):", "if runner.dead:",
            "the row that the engine would write is lost", "test_repeated_runs.py::test_a_run_goes_on_by_the_engine_and_back"),
     mutant("lessons-merged", "py/nonsmooth/studies/lessons.py", "for name, cases in kept.items()} | found", "for name, cases in kept.items() if not found} | found",
            "a lesson run alone drops the others", "test_lessons.py::test_a_lesson_that_is_run_alone_leaves_the_numbers_of_others"),

@@ -235,8 +235,7 @@ def soft_run(tmp_path_factory):
     """The small slope of springs while it settles, gets wet and fails: its series, its breaks, and what it held."""
     folder, chosen = tmp_path_factory.mktemp("soft"), section.load(str(SMALL))
     O.reset()
-    built = slope.build(chosen, slope_packing.of(chosen), worlds.Soft(**SOFT))
-    run = experiment.Experiment(built, folder)
+    run = experiment.begin(chosen, folder, world=worlds.Soft(**SOFT))
     run.run(end=3.0)
     made = run.state.bonds_initial
     O.reset()

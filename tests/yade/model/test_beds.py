@@ -13,7 +13,7 @@ import shell
 from slope_scenes import SMALL, write_changed
 from yade.nonsmooth import experiment, packing, records, section, similar
 from yade.nonsmooth.model import geometry
-from yade.nonsmooth.studies.slope import results, slope
+from yade.nonsmooth.studies.slope import results
 from yade.nonsmooth.world.stepping import advance
 
 pytestmark = pytest.mark.usefixtures("empty")
@@ -35,7 +35,7 @@ def written(tmp_path, **changes):
 def run(made, out, end=None):
     """The course of a section in this process, with its series and summary."""
     out.mkdir()
-    course = experiment.Experiment(slope.build(made, packing.cached_pack(made)), out)
+    course = experiment.begin(made, out, packing=packing.cached_pack(made))
     course.run(end)
     return course, records.read_series(out / "series.csv"), results.summarise(out, made, vars(course.state))
 
@@ -320,7 +320,7 @@ def _one_more_step(course):
 def test_the_mass_is_counted_apart_from_its_bed(eroded):
     made, course, series, told, out, _ = eroded
     start, end = (records.read_snapshot(out / name) for name in ("t0.npz", "end.npz"))
-    assert told["finished"] and course.mass.tolist() == (start.layer < 2).tolist()
+    assert told["finished"] and course.monitor.mass.tolist() == (start.layer < 2).tolist()
     # fronts, speeds and centres are of the mass, which begins behind the bed
     assert series["front_m"][0] < 2 < start.x[start.layer == 2].max() < start.x[start.layer == 3].max()
     mass = end.layer < 2

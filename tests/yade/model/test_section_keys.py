@@ -248,7 +248,7 @@ WHERE = {
     ("layers", "*", "role"): [
         (
             {("layers", 1, "role"): "bed"},
-            lambda m: (m.run.mass.tolist(), m.run.layers.tolist().count(1)),
+            lambda m: (m.run.monitor.mass.tolist(), m.run.layers.tolist().count(1)),
             lambda m: ((m.run.layers == 0).tolist(), 3),
             0.02,
         ),

@@ -9,7 +9,7 @@ import pytest
 import slope_scenes
 from yade import O
 from yade.nonsmooth import experiment, records, run_figures, section
-from yade.nonsmooth.studies.slope import results, slope, slope_packing
+from yade.nonsmooth.studies.slope import results
 
 FILES = (
     "summary.json",
@@ -37,7 +37,7 @@ def small(tmp_path_factory):
 
 def run(s, folder, end):
     O.reset()
-    made = experiment.Experiment(slope.build(s, slope_packing.of(s)), folder)
+    made = experiment.begin(s, folder)
     made.run(end=end)
     return made
 

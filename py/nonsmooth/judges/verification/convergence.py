@@ -125,10 +125,9 @@ def slope(folder, disks, seed, time_step, tolerance, tolerance_moving, slack=Non
         max_iterations=1000,
     )
     s = dataclasses.replace(shipped, numerics=numerics)
-    built = builder.build(s, slope_packing.of(shipped))
-    if slack is not None:
-        built.solver.correctionSlack = slack
-    run = experiment.Experiment(built, folder)
+    world = None if slack is None else builder.hard(s, slack)
+    run = experiment.begin(s, folder, packing=slope_packing.of(shipped), world=world)
+    built = run.slope
     run.run()
     state = {**dataclasses.asdict(run.state), "overlap_worst_ever": built.solver.overlapWorstEver}
     summary = results.summarise(folder, s, state)

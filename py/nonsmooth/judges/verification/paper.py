@@ -112,10 +112,10 @@ def avalanche(folder, disks, seed):
     """Runs a :func:`slope` in the (empty) scene until it rests; returns its summary, as ``wedge_m`` how far up from the
     foot the end of DP is not weakened [m], and as ``friction_WALL_rel`` the work of friction on each wall by all that
     is dissipated."""
-    from ...studies.slope import experiment, slope as builder, slope_packing
+    from ...studies.slope import experiment
 
     chosen = slope(disks, seed)
-    run = experiment.Experiment(builder.build(chosen, slope_packing.of(chosen)), folder)
+    run = experiment.begin(chosen, folder)
     run.run()
     summary = run.summarise(threads=1)
     slid, lost = summary["sliding_on_walls_J_per_m"], summary["energy_dissipated_J_per_m"]

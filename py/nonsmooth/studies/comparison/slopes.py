@@ -5,7 +5,6 @@
 from __future__ import annotations
 
 import dataclasses
-import math
 from dataclasses import asdict
 
 import numpy as np
@@ -96,7 +95,7 @@ def run(folder, **plain):
     from yade import O
 
     from ...world import worlds
-    from ..slope import experiment, slope, slope_packing
+    from ..slope import experiment
 
     case = Case(**plain)
     s, note = section_of(case), Progress(folder)
@@ -111,20 +110,20 @@ def run(folder, **plain):
             fragile=case.fragile,
             verlet=-s.numerics.verlet_distance,
         )
-    built = slope.build(s, slope_packing.of(s), world)
-    if case.world == "soft":  # so that rows are those of the hard run
-        row = scales.of(s).row_seconds
-        O.dt = row / math.ceil(row / O.dt)
-    course = experiment.Experiment(
-        built, folder, progress=lambda stage, now, foreseen: note(now / foreseen), damping_moving=case.damping_moving
+    course = experiment.begin(
+        s,
+        folder,
+        progress=lambda stage, now, foreseen: note(now / foreseen),
+        world=world,
+        damping_moving=case.damping_moving,
     )
     course.run()
     return {
         "state": asdict(course.state),
-        "disks": built.count,
+        "disks": course.slope.count,
         "steps": O.iter - course.state.first_step,
         "simulated_s": O.time,
-        "overlap_worst_ever": built.solver.overlapWorstEver,
+        "overlap_worst_ever": course.slope.solver.overlapWorstEver,
     }
 
 

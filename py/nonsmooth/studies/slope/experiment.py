@@ -18,55 +18,27 @@ import time
 from dataclasses import asdict
 from pathlib import Path
 
-import numpy as np
-
 from yade import O
 from yade.minieigenHP import Vector3
-from yade.wrapper import ContactDynamicsEngine, CourseRunner, NewtonIntegrator, PartialEngine, PyRunner
+from yade.wrapper import NewtonIntegrator, PartialEngine, PyRunner
 
-from ... import course, packing, records
+from ... import course, records
 from ...course import State, driver
 from ...errors import UserError
-from ...measure.fronts import front_of
 from ...model import scales
 from ...model.section import Section, data as section_data
+from ...packing.files import Packing
 from ...records import checkpoints
-from ...records.columns import without
 from ...system import checks, keys
 from ...world import tables, worlds
 from ...world.stepping import advance
-from . import frames, results, slope, slope_packing
+from . import attached, frames, results, slope, slope_packing
+from .attached import come_to, row  # noqa: F401  a scene's CourseRunner calls experiment.row
 from .columns import COLUMNS
-from .wall_series import WallSeries
+from .error import ArgumentError, EndError, ExperimentError
+from .monitoring import SlopeMonitor
 
 __all__ = ["ArgumentError", "EndError", "Experiment", "ExperimentError", "State", "COLUMNS", "begin", "resume"]
-
-FORCE_SAMPLES = 100  # of the forces on walls in a row, with soft contacts; each step with hard ones
-
-#: Columns that only a run of rigid disks has: of the contact solver, and of the energies that it sums up.
-OF_SOLVER = (
-    "iterations",
-    "residual",
-    "residual_N_per_m",
-    "tolerance",
-    "energy_water_J",
-    "energy_walls_J",
-    *records.LOSSES,
-    "energy_correction_J",
-    "energy_error_rel",
-)
-
-
-class ExperimentError(UserError, RuntimeError):
-    """The run cannot go on; the message says why and what helps."""
-
-
-class ArgumentError(ExperimentError, ValueError):
-    """What an experiment cannot be made of; nothing has been written then."""
-
-
-class EndError(ExperimentError, ValueError):
-    """An end of a run that is no time to come; nothing has been done then, and the run can go on with another."""
 
 
 class Experiment(driver.Course):
@@ -83,39 +55,26 @@ class Experiment(driver.Course):
         folder = checks.path("folder", folder, UserError, "give the path of a folder")
         if state is None:
             results.check_folder(folder)
-        self.hard = isinstance(built.solver, ContactDynamicsEngine)
+        self.monitor = SlopeMonitor(built, layers)
+        self.hard, self.layers = self.monitor.hard, self.monitor.layers
         worlds.check_damping("hard" if self.hard else "soft", damping_moving)
         self.slope, self.section, self.folder = built, built.section, Path(folder)
         self.state = state or State()
-        self.layers = slope.layers_of(built) if layers is None else layers
         self.progress = progress or (lambda *_: None)
         self.scales = scales.of(self.section)
-        # disks of the mass, where others are bed or obstacles
-        mass = np.array([layer.role == "mass" for layer in self.section.layers])
-        self.mass = None if mass.all() else mass[self.layers]
-        # disks whose water slip surfaces bear: the lowest of them; and in part, each that has columns of its own
-        self.borne = None if self.section.borne.all() else self.section.borne[self.layers]
-        self.borne_by = {name: self.section.borne_by(name)[self.layers] for name in self.section.stacked}
         self.stands = False  # see run
-        self.runner = None  # see attach
         self.unsaved = None if self.hard else "a slope of soft contacts"
-        own = records.own_columns(self.section.stacked)
-        self.columns = (COLUMNS if self.hard else without(COLUMNS, OF_SOLVER)) | {
-            name: COLUMNS[records.stem(name)]._replace(name=name) for name in own
-        }
         if state is None:
             checkpoints.forget(self.folder)  # before anything is written that it would not belong to
             results.forget(self.folder)
             with contextlib.suppress(OSError):  # the series says what is wrong with the folder
                 self.folder.mkdir(parents=True, exist_ok=True)
         self.series = records.SeriesWriter(
-            self.folder / "series.csv", self.columns, resume_from=mark and mark["series"], overwrite=True
+            self.folder / "series.csv", self.monitor.columns, resume_from=mark and mark["series"], overwrite=True
         )
         if state is None:  # after the series, by which a run's folder is known
             section_data.write(self.section, self.folder / section_data.FILE)
-        # soft steps are thousands a row, and as cheap as a look at the walls
-        period = 1 if self.hard else max(1, int(self.scales.row_seconds / O.dt / FORCE_SAMPLES))
-        self.walls = WallSeries(built, self.layers, self.folder / "walls.csv", period, mark and mark["walls"])
+        self.walls = self.monitor.open_walls(self.folder / "walls.csv", mark and mark["walls"])
         if state is None:
             self.frames = frames.Frames(self.folder, self.section)
         else:
@@ -150,10 +109,10 @@ class Experiment(driver.Course):
         if end is not None:
             remedy = f"the run is at {O.time:.6g} s of simulated time; give a later time [s], or none to run until the experiment is over"
             end = checks.number("end", end, EndError, remedy)
-            if _come_to(end):
+            if come_to(end):
                 raise EndError(f"end {end:g}: {remedy}")
         self._open()
-        self._detach()
+        attached.detach(self)
         self.stands = end is None and not _scripted() if stands is None else stands
         self._end = end
         driver.drive(self)
@@ -166,7 +125,7 @@ class Experiment(driver.Course):
 
     def _steps(self):
         """Those up to the next row; returns its number."""
-        row = self._next()
+        row = self.next_row()
         ends = row * self.scales.row_seconds
         while self.state.stage == "settle" and not self.hard and O.time < ends - 0.5 * O.dt:
             self.newton.gravity = self._gravity(O.time)
@@ -174,13 +133,13 @@ class Experiment(driver.Course):
         advance(until=ends, view=False)
         return row
 
-    def _next(self):
+    def next_row(self):
         """Number of the row that ends next."""
         return course.next_row(O.time, O.dt, self.scales.row_seconds)
 
     def reached(self, end=None):
         """Whether the experiment is over, or has come to ``end`` [s] of simulated time."""
-        return self.state.stage == "done" or (end is not None and _come_to(end))
+        return self.state.stage == "done" or (end is not None and come_to(end))
 
     def summarise(self, threads=None) -> dict:
         """Writes ``summary.json`` of what has been run, and returns it, see :func:`.results.summarise`."""
@@ -209,44 +168,20 @@ class Experiment(driver.Course):
 
         Raises ExperimentError for soft contacts, whose gravity :meth:`run` makes grow.
         """
-        global _attached
         if not self.hard:
             raise ExperimentError(
                 "a slope of soft contacts is driven by Experiment.run() alone: its gravity grows in Python; call that instead of O.run()"
             )
         self._open()
-        _attached, self.stands = self, stands
-        self.runner = CourseRunner(
-            label="slopeCourse", command="import yade.nonsmooth.experiment; yade.nonsmooth.experiment.row()"
-        )
-        O.engines = [self.runner, *(e for e in O.engines if not isinstance(e, CourseRunner))]
-        self._wait()
-        return self.runner
+        self.stands = stands
+        return attached.attach(self)
 
-    def _detach(self):
-        """Takes the engine of :meth:`attach` out again; the row that it would have written as the next step begins is
-        written now.
-        """
-        if self.runner is not None:
-            if not self.runner.dead and _come_to(self.runner.nextTime):
-                self._row_came()
-            O.engines = [e for e in O.engines if not isinstance(e, CourseRunner)]
-            self.runner = None
-
-    def _wait(self):
-        """For the next row, or, where the course is over, for none."""
-        self._waiting = self._next(), O.time, time.perf_counter()
-        self.runner.nextTime = self._waiting[0] * self.scales.row_seconds
-        self.runner.dead = self.state.stage == "done"
-
-    def _row_came(self):
-        number, first, began = self._waiting
-        self._pass_row(number, O.time - first, time.perf_counter() - began)
-        self._wait()
+    def row_came(self, row, simulated, seconds):
+        """The steps up to a row, its number, have been made by an engine: what they simulated, and took [s]."""
+        self._pass_row(row, simulated, seconds)
         if self.state.stage == "done":
             self._finish()
             self._close()
-            O.pause()
 
     def _count(self, simulated, seconds):
         s = self.state
@@ -262,11 +197,11 @@ class Experiment(driver.Course):
         """``row``: its number."""
         solver = self.slope.solver
         disks = tables.bodies(solver)
-        self._inside(disks)
-        seen = self._seen(disks)
+        self.monitor.inside(disks, self.folder)
+        seen = self.monitor.seen(self.state, disks, not self.stands)
         s = self.state = course.noted(self.state, seen, self.scales)
         s.overlap_mean_worst = max(s.overlap_mean_worst, solver.overlapMean)
-        values, regular = self._row(disks), course.keeps_frame(s, row)
+        values, regular = self.monitor.row(s, disks), course.keeps_frame(s, row)
         self.series.write(values)
         s.frames += regular
         if self.frames.takes(values, regular, asdict(course.after(s, seen, self.section, self.scales))):
@@ -277,44 +212,6 @@ class Experiment(driver.Course):
 
     def _finish(self):
         self.checkpoint()
-
-    def _seen(self, disks):
-        e, water, made = self.slope.solver, self.slope.water, self.state.bonds_initial
-        return course.Seen(
-            O.time,
-            O.dt,
-            self._mean_speed(disks),
-            water.height if water else None,
-            way=0.0
-            if self.state.centre is None
-            else abs(self._centroid(disks)[0] - self.state.centre) / self.section.mass_size,
-            broken=(e.brokenTension + e.brokenShear + e.brokenTorque + e.brokenMixed) / made if made else 0.0,
-            wet=water.wetCount if water else 0,
-            top=self._top(disks),
-            outside=self._outside(e),
-            more=not self.stands,
-        )
-
-    def _top(self, t):
-        """Height of the highest disk's centre above the water's plane [m]; the table acts on those whose centres are
-        below it.
-        """
-        water = self.section.water
-        if water is None:
-            return -math.inf
-        (x, y), (nx, ny) = water.point, water.normal
-        return float(np.max((t["x"] - x) * nx + (t["y"] - y) * ny))
-
-    def _outside(self, e):
-        """Energy that came from elsewhere than weight and water [J/m]: of walls that move, of what a script did between
-        steps since the slope settled (until then gravity, which grows, is counted there too) and, as long as all is
-        dry, of forces that others put on disks. None with soft contacts, which nobody counts. It is 0 to the last bit
-        where nobody has done anything."""
-        if not self.hard:
-            return None
-        wet = self.state.wet or (self.slope.water is not None and self.slope.water.wetCount > 0)
-        brought = 0.0 if self.state.stage == "settle" else abs(e.broughtEnergy)
-        return brought + abs(e.wallWork) + (0.0 if wet else abs(e.externalWork))
 
     def _decide(self, seen):
         """Goes on to the next state, and does what the change means."""
@@ -344,7 +241,7 @@ class Experiment(driver.Course):
             s.bonds_initial = solver.bond()
         advance(view=False)
         s.contacts_initial = solver.contacts
-        s.centre = self._centroid(tables.bodies(solver))[0]
+        s.centre = self.monitor.centroid(tables.bodies(solver))[0]
         self.walls.forget()
         if self.hard:
             solver.view()  # what a script writes to the bodies before it runs the experiment then counts
@@ -363,7 +260,7 @@ class Experiment(driver.Course):
         """Gravity acts, the slope rests: what has moved until now counts no longer."""
         s, solver = self.state, self.slope.solver
         self.newton.gravity = self._gravity(O.time)  # that of the last step was the one of its begin
-        s.packing_fraction = self._fraction() if s.failed_dry is None else None
+        s.packing_fraction = self.monitor.packing_fraction() if s.failed_dry is None else None
         if self.section.stages.settle.bond == "after":
             s.bonds_initial, s.contacts_initial = solver.bond(), solver.contacts
         solver.forgetEnergies()
@@ -374,7 +271,7 @@ class Experiment(driver.Course):
     def _loaded(self):
         """It is t0."""
         disks = tables.bodies(self.slope.solver)
-        self.state.front0 = self._front(disks)
+        self.state.front0 = self.monitor.front(disks)
         self.snapshot(self.folder / "t0.npz", contacts=True)
 
     def _care(self, flowing, still):
@@ -384,145 +281,10 @@ class Experiment(driver.Course):
         else:
             self.newton.damping = course.damping(flowing, *self.damping)
 
-    def _mean_speed(self, t):
-        """Of the disks of the mass [m/s]; ``t``: the disks' table."""
-        return (
-            self.slope.solver.meanSpeed if self.mass is None else float(np.mean(np.hypot(t["vx"], t["vy"])[self.mass]))
-        )
-
-    def _centroid(self, t):
-        """Of the mass, (x, y) [m]."""
-        if self.mass is None:
-            return self.slope.solver.centroid[0], self.slope.solver.centroid[1]
-        return tuple(float(np.average(t[name][self.mass], weights=t["r"][self.mass] ** 2)) for name in ("x", "y"))
-
-    def _front(self, t):
-        """Of the mass [m]."""
-        chosen = slice(None) if self.mass is None else self.mass
-        return front_of(t["x"][chosen], t["r"][chosen], self.section.side)
-
-    def _fraction(self):
-        """Packing fraction of the settled bulk; None where the layers are too thin to have one."""
-        x, y, r = (tables.bodies(self.slope.solver)[name] for name in ("x", "y", "r"))
-        return packing.packing_fraction(packing.Packing(x, y, r, self.layers), self.section.outline)
-
     # ---- records ------------------------------------------------------------------------------
-    def _inside(self, t):
-        """Raises where a disk of the table ``t`` has left the section's box, and where a script has erased or added
-        some.
-        """
-        if len(t["x"]) != self.slope.count:
-            raise ExperimentError(
-                f"at t = {O.time:.3f} s the scene has {len(t['x'])} disks, and the slope {self.slope.count}: its records have a row for each from its beginning on. Let a script that drives a slope "
-                "push disks or move walls, and neither erase nor add disks; without some from the beginning, give a packing without them (packing.read_text)"
-            )
-        x0, y0, x1, y1 = self.section.bounds
-        margin = 0.1 * max(x1 - x0, y1 - y0)
-        out = ~((t["x"] > x0 - margin) & (t["x"] < x1 + margin) & (t["y"] > y0 - margin) & (t["y"] < y1 + margin))
-        if out.any():
-            k = int(np.flatnonzero(out)[0])
-            raise ExperimentError(
-                f"disk {k} left the section at t = {O.time:.3f} s: it is at ({t['x'][k]:.1f}, {t['y'][k]:.1f}) m; close the walls of "
-                f"{self.section.source} there, or lower numerics.time_step. What was written until now stays in {self.folder}"
-            )
-
-    def _row(self, disks):
-        e, water, section = self.slope.solver, self.slope.water, self.section
-        forces, of_surfaces = self.walls.take()
-        dp, fb, ss = forces["slip"], forces["backstop"], forces["ground"]
-        total = water.totalForce if water else (0.0, 0.0, 0.0)
-        lift = total[0] * section.water.normal[0] + total[1] * section.water.normal[1] if water else 0.0
-        u = lift * self._share(disks, self.borne) if water else 0.0
-        slip, (x, y) = self.walls.slip(), self._centroid(disks)
-        row = {
-            "step": O.iter,
-            "time_s": O.time,
-            "stage": course.STAGES.index(self.state.stage),
-            "water_m": water.height if water else 0.0,
-            "dp_normal_total_N_per_m": dp[0] + u,
-            "dp_normal_effective_N_per_m": dp[0],
-            "dp_water_N_per_m": u,
-            "dp_shear_N_per_m": dp[1],
-            "fb_normal_N_per_m": fb[0],
-            "fb_shear_N_per_m": fb[1],
-            "ss_normal_N_per_m": ss[0],
-            "ss_shear_N_per_m": ss[1],
-            "dp_normal_peak_N_per_m": dp[2],
-            "fb_normal_peak_N_per_m": fb[2],
-            "ss_normal_peak_N_per_m": ss[2],
-            "wet_disks": water.wetCount if water else 0,
-            "released_disks": water.releasedCount if water else 0,
-            "speed_mean_m_per_s": self._mean_speed(disks),
-            "speed_max_m_per_s": e.maxSpeed,
-            "front_m": self._front(disks),
-            "centroid_x_m": x,
-            "centroid_y_m": y,
-            **tables.bonds(e),
-            "contacts": e.contacts,
-            "slip_mean_dp_m": slip.mean,
-            "weakened_disks": slip.weakened,
-            "overlap_worst_rel": e.overlapWorst,
-            "overlap_mean_rel": e.overlapMean,
-            "energy_kinetic_J": e.kineticEnergy,
-            "energy_potential_J": e.potentialEnergy,
-        }
-        for name, force in of_surfaces.items():
-            share = lift * self._share(disks, self.borne_by[name]) if water else 0.0
-            row |= self._of_surface(name, force, share)
-        return row | self._of_solver(e) if self.hard else row
-
-    def _of_surface(self, name, force, u):
-        """The columns of one of several slip surfaces one above another: its normal and shear force and peak, and the
-        water's on what it bears [N/m].
-        """
-        slip = self.walls.slip(name)
-        values = (force[0] + u, force[0], u, force[1], force[2], slip.mean, slip.weakened)
-        return {records.column(column, name): value for column, value in zip(records.OWN, values, strict=True)}
-
-    def _share(self, t, part):
-        """The part of the water's force that acts on what slip surfaces bear: these disks, or this part of each (None:
-        all). Forces go with areas.
-        """
-        if part is None:
-            return 1.0
-        wet = tables.water(self.slope.water, self.slope.first_disk, self.slope.count)[0] * t["r"] ** 2
-        return float((wet[part] if part.dtype == bool else wet * part).sum() / wet.sum()) if wet.any() else 0.0
-
-    def _of_solver(self, e):
-        """The columns of OF_SOLVER."""
-        losses = e.slidingLoss + e.rollingLoss + e.debondingLoss + e.impactLoss
-        # gravity grows: no balance yet
-        turned = losses + e.kineticEnergy + abs(e.externalWork) if self.state.stage != "settle" else 0.0
-        return {
-            "iterations": e.iterations,
-            "residual": e.residual,
-            "residual_N_per_m": e.residualForce,
-            "tolerance": e.tolerance,
-            "energy_water_J": e.externalWork,
-            "energy_walls_J": e.wallWork,
-            "energy_sliding_J": e.slidingLoss,
-            "energy_rolling_J": e.rollingLoss,
-            "energy_impact_J": e.impactLoss,
-            "energy_bonds_J": e.debondingLoss,
-            "energy_correction_J": e.correctionEnergy,
-            "energy_error_rel": e.energyError / turned if turned > 0 else 0.0,
-        }
-
     def snapshot(self, path, contacts=False):
         """Writes the present state; with ``contacts`` also the forces."""
-        path.parent.mkdir(parents=True, exist_ok=True)
-        built, water = self.slope, self.slope.water
-        t = tables.bodies(built.solver)
-        first, count = built.first_disk, built.count
-        arrays = {name: t[name] for name in ("x", "y", "r", "angle", "vx", "vy")}
-        arrays["wet"], arrays["released"], arrays["ever_wet"] = tables.water(water, first, count)
-        arrays["weakened"] = self.walls.weakened()
-        if contacts:
-            wall_numbers = {i: k for k, ids in enumerate(built.walls.values()) for i in ids}
-            arrays.update(tables.loaded_contacts(built.solver, first, wall_numbers))
-        records.write_snapshot(
-            path, time_s=O.time, step=O.iter, layer=self.layers, water_m=water.height if water else 0.0, **arrays
-        )
+        self.monitor.snapshot(path, contacts)
 
     # ---- checkpoints --------------------------------------------------------------------------
     def checkpoint(self):
@@ -549,42 +311,41 @@ class Experiment(driver.Course):
         self.frames.saved()
 
 
-def _come_to(end):
-    """Whether less than half a step is missing to the time ``end`` [s]."""
-    return not O.time < end - 0.5 * O.dt
-
-
 def _scripted():
     """Whether the scene has engines that a script has put there, which may do more to the slope."""
     return any(isinstance(e, (PyRunner, PartialEngine)) and not e.dead for e in O.engines)
 
 
-_attached = None  # that a CourseRunner drives
+def begin(section, folder, progress=None, packing=None, world=None, damping_moving=None):
+    """A new :class:`Experiment` of a Section: packed, built and bonded.
 
+    ``packing``: a Packing whose layers are the section's, that of :func:`.slope_packing.of` (from the cache) unless
+    given; ``world``: one of :mod:`worlds`, rigid disks with the section's numerics (:func:`.slope.hard`) unless given;
+    ``progress``, ``damping_moving``: as of Experiment. Rows of soft contacts come at the times of those of rigid disks:
+    their step is shortened until it divides a row.
 
-def row():
-    """What the CourseRunner of :meth:`Experiment.attach` calls. Raises ExperimentError where there is no such
-    Experiment, as after O.load().
-    """
-    if _attached is None or _attached.runner not in O.engines:
-        raise ExperimentError(
-            "this process does not know the stages of this slope, as the scene was loaded without its run: continue with experiment.resume(section, folder).attach()"
-        )
-    _attached._row_came()
-
-
-def begin(section, folder, progress=None):
-    """A new :class:`Experiment` of a Section: packed (from the cache), built and bonded. Raises ArgumentError for what
-    is no Section or no folder, and what slope_packing.of and slope.build raise.
+    Raises ArgumentError for what is no Section, no folder or no Packing, WorldError for what is no world or has no such
+    damping, and what slope_packing.of and slope.build raise.
     """
     _check(section, folder)
+    if packing is not None and not isinstance(packing, Packing):
+        raise ArgumentError(
+            f"packing {checks.shown(packing)}: give a Packing, as packing.read_text(file) returns one, or none for one of our own"
+        )
+    if world is not None:
+        worlds.check(world)
+    worlds.check_damping("hard" if world is None else world, damping_moving)
     folder = Path(folder)
     results.check_folder(folder)
     folder.mkdir(parents=True, exist_ok=True)
     began = time.monotonic()
-    packed = slope_packing.of(section)
+    packed = slope_packing.of(section) if packing is None else packing
     seconds = time.monotonic() - began
-    course = Experiment(slope.build(section, packed), folder, progress=progress)
+    built = slope.build(section, packed, world)
+    if not slope.is_hard(built):
+        row = scales.of(section).row_seconds
+        O.dt = row / math.ceil(row / O.dt)
+    course = Experiment(built, folder, progress=progress, damping_moving=damping_moving)
     course.state.wall_packing_s = seconds
     return course
 
@@ -626,6 +387,6 @@ def resume(section, folder, progress=None):
         ) from None
     for name, one in mark.items():
         records.kept(Path(folder) / f"{name}.csv", one)  # all of them, before any is written to
-    O.engines = [e for e in O.engines if not isinstance(e, CourseRunner)]  # of the run that saved it
+    O.engines = attached.others()  # without that of the run that saved it
     built = slope.find(section, content["walls"], content["first_disk"], content["count"])
     return Experiment(built, folder, state=state, progress=progress, mark=mark)

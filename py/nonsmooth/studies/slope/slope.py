@@ -11,12 +11,12 @@ import numpy as np
 
 from yade import O
 from yade.minieigenHP import Vector3
-from yade.wrapper import NonsmoothTimeStepper, PorePressureEngine
+from yade.wrapper import ContactDynamicsEngine, NonsmoothTimeStepper, PorePressureEngine
 
 from ...model import scales
 from ...world import scene, worlds
 
-__all__ = ["Slope", "build", "find", "hard", "order_of"]
+__all__ = ["Slope", "build", "find", "hard", "is_hard", "order_of"]
 
 # A wall piece of this many mean diameters keeps its bounding box small and the pieces few.
 PIECE = 8.0
@@ -69,8 +69,10 @@ def _walls(section, world):
     return {wall.name: ids[wall.name] for wall in section.walls}
 
 
-def hard(section) -> worlds.Hard:
-    """The world of rigid disks with the section's numerics."""
+def hard(section, slack=SLACK) -> worlds.Hard:
+    """The world of rigid disks with the section's numerics; ``slack``: overlaps and errors of bonds' lengths that stay
+    [ℓ].
+    """
     n = section.numerics
     # bonds are made where contacts are known, so these must reach further than Δ
     reach = max(REACH, 0.01 + max(m.bond_creation_distance for m in section.materials.values()))
@@ -84,7 +86,7 @@ def hard(section) -> worlds.Hard:
         reach,
         far,
         -n.verlet_distance,
-        {"maxIterations": n.max_iterations, "correctionSlack": SLACK, "correctionSpeed": speeds.correction_speed},
+        {"maxIterations": n.max_iterations, "correctionSlack": slack, "correctionSpeed": speeds.correction_speed},
     )
 
 
@@ -156,6 +158,11 @@ def interface_law(slope: Slope, interface):
     """The material of an interface of a built Slope."""
     lower, upper = (O.materials[_label(slope.section.layers[k], k)] for k in slope.section.numbers_of(interface))
     return lower.interfaceLaws[list(lower.interfaceLayers).index(upper.layer)]
+
+
+def is_hard(slope: Slope) -> bool:
+    """Whether the disks of a built Slope are rigid."""
+    return isinstance(slope.solver, ContactDynamicsEngine)
 
 
 def find(section, walls, first_disk, count) -> Slope:

@@ -20,7 +20,7 @@ from ...model import section
 from ...model.section import checks as section_checks
 from ...packing import checks as packing_checks
 from ...system import output_folder
-from . import experiment, results, slope, slope_packing, verdict
+from . import experiment, results, slope_packing, verdict
 
 __all__ = ["run"]
 
@@ -126,8 +126,7 @@ def run(name, about, default=None):
         course = experiment.resume(s, out)
     else:
         made, seconds = fill(args, s)
-        built = slope.build(s, made)
-        course = experiment.Experiment(built, out)
+        course = experiment.begin(s, out, packing=made)
         course.state.wall_packing_s = seconds
         fraction = packing.packing_fraction(made, s.outline)
         bulk = "no bulk between their edges" if fraction is None else f"packing fraction {fraction:.3f}"

@@ -22,7 +22,7 @@ from ...records import checkpoints
 from ...running.kept_runs import Progress
 from ...system import cache, keys
 from ...world.stepping import advance
-from . import experiment, slope, slope_packing, soft_contacts
+from . import experiment, soft_contacts
 
 __all__ = ["NAMES", "BenchmarkError", "exist", "folder_of", "load", "make"]
 
@@ -126,11 +126,11 @@ def _settle(chosen, progress):
     dry = dataclasses.replace(
         chosen, stages=stages, water=dataclasses.replace(chosen.water, table=((0.0, 0.0),), rate=0.0)
     )
-    built = slope.build(dry, slope_packing.of(dry))
     foreseen = chosen.stages.settle.ramp + 1.5 + REST_SECONDS
     with tempfile.TemporaryDirectory() as records:
-        run = experiment.Experiment(built, records, progress=lambda stage, now, _: progress(min(1.0, now / foreseen)))
+        run = experiment.begin(dry, records, lambda stage, now, _: progress(min(1.0, now / foreseen)))
         run.run()
+    built = run.slope
     if built.solver.meanSpeed > REST_SPEED or run.state.failed_dry is not None:
         raise BenchmarkError(
             f"{chosen.source}: {built.count} disks do not come to rest (mean speed {built.solver.meanSpeed:.2g} m/s after {O.time:.1f} s); "

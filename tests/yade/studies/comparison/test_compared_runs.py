@@ -143,9 +143,10 @@ def test_series_of_both_worlds_have_the_same_columns(compared):
         for folder in sorted((out / "runs").iterdir())
     }
     from yade.nonsmooth import experiment
+    from yade.nonsmooth.studies.slope import monitoring
 
     assert heads["hard"] == list(experiment.COLUMNS)
-    assert heads["soft"] == [name for name in experiment.COLUMNS if name not in experiment.OF_SOLVER]
+    assert heads["soft"] == [name for name in experiment.COLUMNS if name not in monitoring.OF_SOLVER]
 
 
 def test_resume_keeps_what_has_finished(compared, source, tmp_path):

@@ -24,7 +24,7 @@ pytestmark = pytest.mark.usefixtures("empty")
 def run(made, out, end=None):
     """A section's run in this process, its summary and the names of its figures; nothing is drawn."""
     out.mkdir()
-    course = experiment.Experiment(slope.build(made, slope_packing.of(made)), out)
+    course = experiment.begin(made, out)
     course.run(end)
     state = vars(course.state)
     return records.read_series(out / "series.csv"), results.summarise(out, made, state)

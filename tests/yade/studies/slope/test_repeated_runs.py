@@ -5,7 +5,7 @@ import math
 import pytest
 from slope_scenes import SMALL
 from yade import O
-from yade.nonsmooth import experiment, records, section
+from yade.nonsmooth import experiment, packing, records, section, worlds
 from yade.nonsmooth.errors import UserError
 from yade.wrapper import CourseRunner
 
@@ -119,3 +119,36 @@ def test_what_a_script_writes_before_it_runs_the_experiment_acts(tmp_path):
     top.state.vel = (0, 30, 0)
     run.run(0.1)
     assert O.bodies[top.id].state.pos[1] - begins > 2.0
+
+
+def test_a_soft_run_begins_with_a_packing_of_ones_own_and_rows_of_the_rigid_one(tmp_path):
+    """Every second disk of a packing; each step divides a row of the rigid run, and the slope keeps its damping."""
+    chosen = section.load(str(SMALL))
+    whole = packing.cached_pack(chosen)
+    half = packing.Packing(*(getattr(whole, name)[::2] for name in ("x", "y", "r", "layer")))
+    soft = worlds.Soft(2e7, (0.5, 1.0))
+    O.reset()
+    run = experiment.begin(chosen, tmp_path / "soft", packing=half, world=soft, damping_moving=0.03)
+    rows = run.scales.row_seconds / O.dt
+    assert rows == pytest.approx(round(rows), abs=1e-9) and O.dt <= soft.step_for(
+        [chosen.materials[layer.material] for layer in chosen.layers]
+    )
+    assert run.slope.count == len(half) and not run.hard and run.damping == (soft.damping, 0.03)
+    with pytest.raises(worlds.WorldError, match="hard contacts have no damping"):
+        experiment.begin(chosen, tmp_path / "hard", damping_moving=0.03)
+    assert not (tmp_path / "hard").exists()  # nothing was made
+
+
+def test_each_scene_knows_its_own_course(tmp_path):
+    """A run that another one followed in this process does not take its rows."""
+    first = begun(tmp_path / "first")
+    first.attach()
+    second = begun(tmp_path / "second")
+    runner = second.attach()
+    while O.time < 0.2 + 0.5 * O.dt:
+        O.step()
+    second.checkpoint()
+    rows = len(records.read_series(tmp_path / "second" / "series.csv")["step"])
+    assert runner.course is second and rows == round(0.2 / second.scales.row_seconds) > 1
+    first.checkpoint()
+    assert len(records.read_series(tmp_path / "first" / "series.csv")["step"]) == 0

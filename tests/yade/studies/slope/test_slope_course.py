@@ -16,6 +16,7 @@ from yade.minieigenHP import Vector3
 from yade.nonsmooth import course, experiment, packing, records, section
 from yade.nonsmooth.measure import characteristic_times
 from yade.nonsmooth.studies.slope import slope
+from yade.nonsmooth.studies.slope.monitoring import SlopeMonitor
 from yade.nonsmooth.wall_forces import WallForces
 from yade.wrapper import WallForceEngine
 
@@ -148,7 +149,7 @@ def test_what_the_course_decides_is_done(loaded, tmp_path, monkeypatch):
     monkeypatch.setattr(type(run.slope), "wall_material", lambda *_: material)
     monkeypatch.setattr(run, "snapshot", lambda path, contacts=False: saved.append((path.name, contacts)))
     monkeypatch.setattr(run, "checkpoint", lambda: saved.append(run.state.stage))
-    monkeypatch.setattr(run, "_fraction", lambda: 0.83)
+    monkeypatch.setattr(run.monitor, "packing_fraction", lambda: 0.83)
     monkeypatch.setattr(
         run,
         "section",
@@ -210,17 +211,17 @@ def test_what_the_course_decides_is_done(loaded, tmp_path, monkeypatch):
 @pytest.mark.parametrize("side", ["left", "right", "below", "above"])
 def test_a_disk_that_leaves_the_section_is_refused(side):
     """On each side a tenth of the section's longer side beyond its box, and where it is nowhere at all."""
-    run = SimpleNamespace(section=section.load("jiufengershan"), folder="out", slope=SimpleNamespace(count=2))
+    run = SimpleNamespace(section=section.load("jiufengershan"), slope=SimpleNamespace(count=2))
     x0, y0, x1, y1 = run.section.bounds
     margin = 0.1 * max(x1 - x0, y1 - y0)
     middle = (0.5 * (x0 + x1), 0.5 * (y0 + y1))
     axis, end, way = {"left": (0, x0, -1), "right": (0, x1, 1), "below": (1, y0, -1), "above": (1, y1, 1)}[side]
     place = lambda at: tuple(at if k == axis else middle[k] for k in (0, 1))  # noqa: E731
     table = lambda one: {"x": np.array([middle[0], one[0]]), "y": np.array([middle[1], one[1]])}  # noqa: E731
-    experiment.Experiment._inside(run, table(place(end + way * (margin - 1e-3))))
+    SlopeMonitor.inside(run, table(place(end + way * (margin - 1e-3))), "out")
     for lost in (end + way * (margin + 1e-3), way * 1e9, np.nan):
         with pytest.raises(experiment.ExperimentError) as refused:
-            experiment.Experiment._inside(run, table(place(lost)))
+            SlopeMonitor.inside(run, table(place(lost)), "out")
         x, y = place(lost)
         assert str(refused.value).startswith(
             f"disk 1 left the section at t = {O.time:.3f} s: it is at ({x:.1f}, {y:.1f}) m; "
@@ -230,12 +231,12 @@ def test_a_disk_that_leaves_the_section_is_refused(side):
 
 @pytest.mark.parametrize("count", [1, 3])
 def test_a_slope_whose_script_erases_or_adds_disks_is_refused(count):
-    run = SimpleNamespace(section=section.load("jiufengershan"), folder="out", slope=SimpleNamespace(count=2))
+    run = SimpleNamespace(section=section.load("jiufengershan"), slope=SimpleNamespace(count=2))
     with pytest.raises(
         experiment.ExperimentError,
         match=f"the scene has {count} disks, and the slope 2: .* neither erase nor add disks",
     ):
-        experiment.Experiment._inside(run, {"x": np.zeros(count), "y": np.zeros(count)})
+        SlopeMonitor.inside(run, {"x": np.zeros(count), "y": np.zeros(count)}, "out")
 
 
 def test_a_row_that_sees_a_lost_disk_ends_the_run_and_is_not_written(loaded, tmp_path):

@@ -12,7 +12,7 @@ from slope_scenes import SMALL, write_changed
 from yade import O
 from yade.minieigenHP import Vector3
 from yade.nonsmooth import course, experiment, records, section, similar, worlds
-from yade.nonsmooth.studies.slope import slope, slope_packing
+from yade.nonsmooth.studies.slope import slope_packing
 from yade.wrapper import PyRunner
 
 pytestmark = pytest.mark.usefixtures("empty")
@@ -44,7 +44,7 @@ WEAK = {"rock": {"tensile_strength": 1e3}, "fb": {"tensile_strength": 100.0}, "d
 
 
 def begun(chosen, folder):
-    return experiment.Experiment(slope.build(chosen, slope_packing.of(chosen)), folder)
+    return experiment.begin(chosen, folder)
 
 
 def told(run):
@@ -181,7 +181,7 @@ def test_soft_contacts_have_a_verdict_too(tmp_path):
     """Of its settling, and of what follows: softer and slower, so that its stages are short here."""
     chosen = made(tmp_path, **wet(0.0))
     world = worlds.Soft(1e7, (chosen.disks.d_min, chosen.disks.d_max), verlet=-chosen.numerics.verlet_distance)
-    run = experiment.Experiment(slope.build(chosen, slope_packing.of(chosen), world), tmp_path)
+    run = experiment.begin(chosen, tmp_path, world=world)
     run.run(0.1)
     assert run.state.outside is None  # nobody counts it
     run.state = dataclasses.replace(run.state, stage="done", settled=0.05, t0=0.06, quiet_since=0.06)
