@@ -168,7 +168,7 @@ MUTANTS = (
            "the gradient upwards takes the sum", "test_pressure_field.py::test_a_triangles_gradient_is_that_of_its_three_nodes"),
     mutant("field-edges", "pkg/dem/TriangleField.cpp", "s[0] >= -onEdge && s[1] >= -onEdge && s[2] >= -onEdge", "s[0] >= -onEdge && s[1] >= -onEdge",
            "points beyond the third side are inside", "test_pressure_field.py::test_holes_and_gaps_between_triangles_are_outside"),
-    mutant("field-made-anew", "pkg/dem/PorePressureField.hpp", "{ isMade = false; }", "{}", "lists that are set later do not act",
+    mutant("field-made-anew", "pkg/dem/PorePressureField.cpp", "if (!isMade) make();", "if (present.empty()) make();", "lists that are set later do not act",
            "test_pressure_field.py::test_lists_that_are_set_later_act"),
     # ---- ground motion
     mutant("ground-mean", "pkg/dem/GroundMotionEngine.cpp", "record().mean(now, next)", "record().acceleration(now)", "the record is sampled and not averaged",
