@@ -179,9 +179,9 @@ MUTANTS = (
            "test_ground_motion.py::test_moving_walls_are_the_moving_frame"),
     mutant("ground-displacement", "pkg/dem/AccelerationRecord.cpp", "(2 * a[k - 1] + a[k]) / 6", "(a[k - 1] + 2 * a[k]) / 6", "the displacement takes the end's acceleration twice",
            "test_ground_motion.py::test_velocity_and_displacement_are_the_records_integrals"),
-    mutant("ground-drift", "pkg/dem/AccelerationRecord.cpp", "out[axis] = reached[axis][k] +", "out[axis] = (k + 1 < (long)at.size()) * reached[axis][k] +", "after its record the ground stands",
+    mutant("ground-drift", "pkg/dem/AccelerationRecord.cpp", "reached[axis][k] + (k + 1 < (long)at.size() ? gained(axis, k, time) : 0)", "k + 1 < (long)at.size() ? reached[axis][k] + gained(axis, k, time) : 0", "after its record the ground stands",
            "test_ground_motion.py::test_velocity_and_displacement_are_the_records_integrals"),
-    mutant("ground-ids", "pkg/dem/GroundMotionEngine.cpp", "if (ids.empty() && acceleration", "if (acceleration", "walls move and disks are pushed as well",
+    mutant("ground-ids", "pkg/dem/GroundMotionEngine.cpp", "ids.empty() && acceleration != Vector3r::Zero()", "acceleration != Vector3r::Zero()", "walls move and disks are pushed as well",
            "test_ground_motion.py::test_moving_walls_are_the_moving_frame"),
     # ---- stages, many steps, gravity that grows
     mutant("clock-next", CLOCK, "begin = now;", ";", "a stage has the time of those before it as well", "test_engine.py::test_timing_counts_the_engine"),
