@@ -4,14 +4,14 @@ In the frame of the ground the block of unit mass is driven down the plane, of t
 
     d = (g + a_y) sin β − a_x cos β      and pressed onto it by      p = (g + a_y) cos β + a_x sin β,
 
-with the accelerations a of the ground, x in the direction in which the plane falls, y up. It resists with s = μ p + c/m,
-c the cohesion and m the mass on a unit of area. It rests while |d| ≤ s, slides down with the acceleration d − s, and up
-with d + s. A motion that consists of straight pieces makes all of them straight, so that the velocity of the block is a
-quadratic function of time within a piece: where it begins to slide, and where it stops or turns round, are roots of
-linear and of quadratic equations, and no step of time is chosen.
+with the accelerations a of the ground, x in the direction in which the plane falls, y up. It resists with s = μ p +
+c/m, c the cohesion and m the mass on a unit of area. It rests while ``|d| ≤ s``, slides down with the acceleration d −
+s, and up with d + s. A motion that consists of straight pieces makes all of them straight, so that the velocity of the
+block is a quadratic function of time within a piece: where it begins to slide, and where it stops or turns round, are
+roots of linear and of quadratic equations, and no step of time is chosen.
 
-These are own lines. pyNewmarkDisp, which computes such blocks too, is in no Debian, needs Numba, and takes one component
-of the motion. Needs no YADE.
+These are own lines. pyNewmarkDisp, which computes such blocks too, is in no Debian, needs Numba, and takes one
+component of the motion. Needs no YADE.
 """
 
 from __future__ import annotations
@@ -69,8 +69,9 @@ class Block:
             raise NewmarkError(f"both_ways {checks.shown(self.both_ways)}: give True or False")
         if not self._reserve > 0:
             raise NewmarkError(
-                f"friction {self.friction:g}, cohesion {self.cohesion:g} Pa on a dip of {self.dip:g} degrees: the block "
-                f"slides without shaking; give a friction above {math.tan(math.radians(self.dip)):.4g}, or a cohesion"
+                f"friction {self.friction:g}, cohesion {self.cohesion:g} Pa on a dip of {self.dip:g} degrees: the "
+                "block slides without shaking; give a friction above "
+                f"{math.tan(math.radians(self.dip)):.4g}, or a cohesion"
             )
 
     @property
@@ -108,8 +109,8 @@ class Block:
 @dataclass(frozen=True, eq=False)
 class Slide:
     """How a block slides: at ``times`` [s], which rise (those of the motion, and where it begins to slide, stops or
-    turns), its ``displacement`` [m] and ``velocity`` [m/s] relative to the ground, positive down the plane; arrays (n,).
-    The last time is that at which it has come to rest for good, or the end of the motion where that is later.
+    turns), its ``displacement`` [m] and ``velocity`` [m/s] relative to the ground, positive down the plane; arrays
+    (n,). The last time is that at which it has come to rest for good, or the end of the motion where that is later.
     """
 
     times: np.ndarray

@@ -1,4 +1,4 @@
-"""Records of earthquakes from files: what is read, and what is refused in one line. All files here are made up. Needs no
+"""Records of earthquakes from files: what is read, and what is refused in one line. All files are made up. Needs no
 YADE.
 """
 

@@ -68,8 +68,8 @@ class GroundMotion:
         t = self.times
         if len(t) < 2 or len({len(t), len(self.horizontal), len(self.vertical)}) > 1:
             raise GroundMotionError(
-                f"times have {len(t)} values, horizontal {len(self.horizontal)} and vertical {len(self.vertical)}: give "
-                "one acceleration of each for each time, of two times or more"
+                f"times have {len(t)} values, horizontal {len(self.horizontal)} and vertical {len(self.vertical)}: "
+                "give one acceleration of each for each time, of two times or more"
             )
         for name, most, unit in (("times", LATEST, "s"), *((one, LARGEST, "m/s²") for one in COMPONENTS)):
             values = getattr(self, name)
@@ -80,7 +80,7 @@ class GroundMotion:
                 raise GroundMotionError(f"{name}[{k}] {values[k]:g}: {remedy}")
         for k in np.flatnonzero(np.diff(t) <= 0)[:1]:
             raise GroundMotionError(
-                f"times[{k + 1}] {float(t[k + 1])!r} comes after {float(t[k])!r}: give times that rise, each of them once"
+                f"times[{k + 1}] {float(t[k + 1])!r} comes after {float(t[k])!r}: give times that rise, each once"
             )
 
     # ---- the motion in the course of time ---------------------------------------------------------------
@@ -233,7 +233,7 @@ class GroundMotion:
         """
         if (peak is None) == (factor is None):
             raise GroundMotionError(
-                f"peak {checks.shown(peak)}, factor {checks.shown(factor)}: give one of them, a peak in m/s² or a factor"
+                f"peak {checks.shown(peak)}, factor {checks.shown(factor)}: give one, a peak in m/s² or a factor"
             )
         if peak is not None:
             peak = checks.number("peak", peak, GroundMotionError, "give an acceleration above 0 in m/s²", above=0)
@@ -254,9 +254,8 @@ class GroundMotion:
         """The horizontal component as a motion along a line that rises to the right by ``angle`` [degrees, from −90 to
         90]. Raises GroundMotionError where the vertical component is not zero.
         """
-        angle = checks.number(
-            "angle", angle, GroundMotionError, "give degrees from -90 to 90, above 0 for a line that rises to the right", least=-90, most=90
-        )  # fmt: skip
+        remedy = "give degrees from -90 to 90, above 0 for a line that rises to the right"
+        angle = checks.number("angle", angle, GroundMotionError, remedy, least=-90, most=90)
         if self.vertical.any():
             raise GroundMotionError(
                 f"angle {angle:g}: the motion has a vertical component already; give a horizontal motion"
@@ -278,9 +277,9 @@ class GroundMotion:
         between the new times are lost, and the integral changes: compare :attr:`drift`. Raises GroundMotionError for a
         step that is longer than the record, or makes more than ten million values.
         """
-        step = checks.number(
-            "step", step, GroundMotionError, f"give seconds, from {1e-7 * self.duration:g} to {self.duration:g}", least=1e-7 * self.duration, most=self.duration
-        )  # fmt: skip
+        least, most = 1e-7 * self.duration, self.duration
+        remedy = f"give seconds, from {least:g} to {most:g}"
+        step = checks.number("step", step, GroundMotionError, remedy, least=least, most=most)
         begin, end = float(self.times[0]), float(self.times[-1])
         times = begin + step * np.arange(math.ceil(self.duration / step - 1e-9))
         times = np.r_[times, end]

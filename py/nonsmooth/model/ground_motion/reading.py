@@ -146,9 +146,8 @@ def _at2(path, lines, unit):
     """Step [s], accelerations (n,) [m/s²] and name of a component."""
     number = next((k for k, line in enumerate(lines[:HEADER], 1) if "NPTS" in line.upper()), None)
     if number is None:
-        raise _wrong(
-            path, f"none of its first {HEADER} lines has NPTS", "give a line such as NPTS= 4000, DT= .0050 SEC above the values"
-        )  # fmt: skip
+        remedy = "give a line such as NPTS= 4000, DT= .0050 SEC above the values"
+        raise _wrong(path, f"none of its first {HEADER} lines has NPTS", remedy)
     count, step = _count_and_step(path, number, lines[number - 1])
     unit = _unit(path, lines[:number], unit)
     values = [
@@ -202,9 +201,8 @@ def _unit(path, header, stated):
         if known is None:
             raise _wrong(path, f"the unit {checks.shown(word)} is not known", f"give one of {', '.join(UNITS)}", number)
         if stated is not None and UNITS[stated] != UNITS[known]:
-            raise _wrong(
-                path, f"unit {stated!r}, and the file says {checks.shown(word)}", "leave the unit out, or correct the file", number
-            )  # fmt: skip
+            what = f"unit {stated!r}, and the file says {checks.shown(word)}"
+            raise _wrong(path, what, "leave the unit out, or correct the file", number)
         return known
     if stated is None:
         raise _wrong(path, "does not say the unit of its values", f"give unit, one of {', '.join(UNITS)}")
@@ -274,9 +272,8 @@ def _head(path, number, line):
         found.append((kind, unit))
     kinds = [kind for kind, _ in found]
     if len(set(kinds)) < len(kinds) or "time" not in kinds or len(kinds) < 2:
-        raise _wrong(
-            path, f"the columns are {checks.shown(', '.join(names))}", "give time_s and one or both components, each once", number
-        )  # fmt: skip
+        what = f"the columns are {checks.shown(', '.join(names))}"
+        raise _wrong(path, what, "give time_s and one or both components, each once", number)
     return found
 
 
@@ -284,9 +281,8 @@ def _check_times(path, times, numbers, uneven):
     """Raises GroundMotionError for times that do not rise, or, unless they may be ``uneven``, leave one out."""
     steps = np.diff(times)
     for k in np.flatnonzero(steps <= 0)[:1]:
-        raise _wrong(
-            path, f"time {times[k + 1]:g} s comes after {times[k]:g} s", "give times that rise, each of them once", numbers[k + 1]
-        )  # fmt: skip
+        what = f"time {times[k + 1]:g} s comes after {times[k]:g} s"
+        raise _wrong(path, what, "give times that rise, each once", numbers[k + 1])
     if uneven:
         return
     usual = float(np.median(steps))

@@ -45,9 +45,8 @@ def sine(peak, frequency, cycles=1) -> GroundMotion:
     straight pieces a cycle.
     """
     peak, frequency = _above("peak", peak, "m/s²"), _above("frequency", frequency, "Hz")
-    cycles = checks.count(
-        "cycles", cycles, GroundMotionError, f"give a whole number from 1 to {MOST_POINTS // (2 * POINTS)}", most=MOST_POINTS // (2 * POINTS)
-    )  # fmt: skip
+    most = MOST_POINTS // (2 * POINTS)
+    cycles = checks.count("cycles", cycles, GroundMotionError, f"give a whole number from 1 to {most}", most=most)
     number = np.arange(2 * POINTS * cycles + 1)
     values = peak * np.sin(math.pi / POINTS * (number % (2 * POINTS)))  # all cycles have the same bits
     told = f"synthetic: {cycles} {'cycle' if cycles == 1 else 'cycles'} of a sine of {peak:g} m/s² and {frequency:g} Hz"
