@@ -605,7 +605,7 @@ def test_a_law_tester_finds_the_thresholds_of_the_law(output, angle):
 def test_newmarks_blocks_slide_as_the_page_shows(tmp_path):
     """doc/shaking.rst: the stronger block slides less, and the picture is there."""
     done = shell.run(
-        "yade-nonsmooth", os.path.join(ROOT, "doc", "examples", "newmark_blocks.py"), limit=120, cwd=tmp_path
+        "yade-nonsmooth", os.path.join(ROOT, "doc", "examples", "newmark_blocks.py"), limit=300, cwd=tmp_path
     )
     assert done.returncode == 0, done.stderr
     weak, strong = (float(one) for one in re.findall(r"slides (\S+) m", done.stdout))
