@@ -127,7 +127,7 @@ class Slide:
     def at(self, times) -> np.ndarray:
         """Displacements [m] at any times [s], an array of the same shape; exact, as at the times of the slide."""
         times = np.asarray(times, float)
-        k = np.clip(np.searchsorted(self.times, times, side="right") - 1, 0, len(self.times) - 1)
+        k = np.maximum(np.searchsorted(self.times, times, side="right") - 1, 0)
         since = np.clip(times, self.times[0], self.times[-1]) - self.times[k]
         late = self._acceleration[k] / 2 + since * self._slope[k] / 6
         return self.displacement[k] + since * (self.velocity[k] + since * late)
@@ -153,7 +153,7 @@ def slide(block, motion) -> Slide:
     # what is left of the drive where the block slides down, or up; straight lines, each above 0 or below it where
     # the block at rest begins to slide
     down, up = drive - bears, drive + bears if block.both_ways else np.full(len(drive), math.inf)
-    course = _Course(motion.times[0])
+    course = _Course()
     for k, (begin, end) in enumerate(zip(motion.times[:-1].tolist(), motion.times[1:].tolist())):
         lines = tuple(
             (one[k], (one[k + 1] - one[k]) / (end - begin) if np.isfinite(one[k]) else 0.0) for one in (down, up)
@@ -167,8 +167,8 @@ def slide(block, motion) -> Slide:
 class _Course:
     """A slide that is followed from one straight piece of the motion to the next."""
 
-    def __init__(self, begin):
-        self._now, self._place, self._speed, self._way = float(begin), 0.0, 0.0, 0  # 1: slides down, −1: up, 0: rests
+    def __init__(self):
+        self._now, self._place, self._speed, self._way = 0.0, 0.0, 0.0, 0  # 1: slides down, −1: up, 0: rests
         self._rows = []
 
     def follow(self, begin, end, down, up):

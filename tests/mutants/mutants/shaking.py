@@ -44,6 +44,8 @@ MUTANTS = (
     mutant("newmark-side", NEWMARK, "x, y = self.side * acceleration[:, 0]", "x, y = acceleration[:, 0]", "a plane to the left is shaken as one to the right", f"{BLOCK}::test_a_mirrored_slope_slides_as_far"),
     mutant("newmark-root", NEWMARK, "return min((one for one in (q / slope", "return max((one for one in (q / slope", "the block stops when it would stop the second time", f"{BLOCK}::test_a_cycle_of_a_sine"),
     mutant("newmark-rest", NEWMARK, "if stop <= length - since:", "if stop < 0:", "a block that has stopped is pulled back by friction", f"{BLOCK}::test_a_cycle_of_a_sine"),
+    mutant("newmark-turn", NEWMARK, "self._way * self._speed, value + slope * since", "self._way * self._speed, value - slope * since", "a block that turns round within a piece begins with another pull",
+           f"{BLOCK}::test_a_block_turns_round_within_a_piece"),
     mutant("newmark-coast", NEWMARK, "        if self._speed != 0:\n", "        if False:\n", "what still slides at the end of the record stops at once", f"{BLOCK}::test_a_rectangular_pulse"),
     mutant("newmark-ways", NEWMARK, "drive + bears if block.both_ways else np.full(len(drive), math.inf)", "drive + bears", "a block that is held against it slides up",
            f"{BLOCK}::test_a_block_slides_up_where_it_is_pushed_up_and_may"),

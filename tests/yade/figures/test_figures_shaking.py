@@ -42,6 +42,7 @@ def test_slips_are_full_lines_and_their_blocks_broken_ones_of_the_same_colour():
     assert [one.is_dashed() for one in lines] == [False, False, True]
     first, second, block = told.values()
     assert block == first != second
+    assert drawn.levels(ax) == [(0, "#999999")] == drawn.levels(ax.figure.axes[0])
 
 
 def test_what_is_left_at_the_end_of_the_record_is_told():
@@ -56,6 +57,7 @@ def test_one_component_and_no_slips():
     for ground in (flat, without):
         fig = figures.shaking(*ground)
         assert len(fig.axes) == 3 and fig.axes[0].get_legend() is None and fig.axes[2].get_xlabel() == "time [s]"
+        assert fig.axes[0].get_xlim() == (0, 4)
         assert [one.get_label() for one in fig.axes[1].lines if not one.get_label().startswith("_")] == ["horizontal"]
 
 
@@ -89,3 +91,4 @@ def test_what_cannot_be_drawn_is_told(given, message):
 
 def test_it_is_written(tmp_path):
     assert figures.shaking(*GROUND, SURFACES, BLOCKS, path=tmp_path / "a.png").read_bytes()[:4] == b"\x89PNG"
+    assert [one.name for one in tmp_path.iterdir()] == ["a.png"]

@@ -162,11 +162,12 @@ def test_on_a_level_plane_both_ways_are_the_same():
     assert back.at(motion.times) == pytest.approx(-there.at(motion.times), abs=1e-12)
 
 
-def test_pieces_that_are_cut_in_parts_change_nothing():
+@pytest.mark.parametrize("held", [SHAKEN, newmark.Block(0, 0.05)])  # the second one turns round without a rest
+def test_pieces_that_are_cut_in_parts_change_nothing(held):
     motion = noise(uneven=True)
     times = np.sort(np.r_[motion.times, 0.5 * (motion.times[1:] + motion.times[:-1])])
     cut = motions.GroundMotion(times, *motion.acceleration(times).T)
-    one, other = newmark.slide(SHAKEN, motion), newmark.slide(SHAKEN, cut)
+    one, other = newmark.slide(held, motion), newmark.slide(held, cut)
     assert other.at(times) == pytest.approx(one.at(times), abs=1e-11)
 
 
@@ -196,6 +197,19 @@ def test_a_block_slides_up_where_it_is_pushed_up_and_may():
     free, held = (newmark.slide(newmark.Block(10, 0.3, both_ways=way), motion) for way in (True, False))
     assert free.displacement.min() < 0 and held.displacement.min() == 0 and held.permanent > free.permanent
     assert free.velocity.min() < 0 and held.velocity.min() >= 0
+
+
+def test_a_block_turns_round_within_a_piece():
+    """On a level plane, from a pull of −4 to one of 4 m/s² in 1 s against 1 m/s² of friction: v = −3 t + 4 t² until
+    3/4 s, where the pull is 2 m/s²; then, with u = t − 3/4, u + 4 u²; after 1 s it comes to rest.
+    """
+    level = newmark.Block(0, 0.1, gravity=10.0)
+    found = newmark.slide(level, motions.GroundMotion([0, 1], [4.0, -4.0]))
+    left = -1.5 * 0.75**2 + 4 * 0.75**3 / 3
+    speed, right = 0.25 + 4 * 0.25**2, 0.5 * 0.25**2 + 4 * 0.25**3 / 3
+    assert found.displacement.min() == pytest.approx(left, rel=1e-12) and 0.75 == pytest.approx(found.times[1])
+    assert found.velocity[2] == pytest.approx(speed, rel=1e-12)
+    assert found.permanent == pytest.approx(left + right + 0.5 * speed**2, rel=1e-12)
 
 
 def test_the_vertical_component_presses_the_block_and_relieves_it():

@@ -34,7 +34,9 @@ def test_a_triangle_by_hand():
     # t³/2, then 0.5 + 1.5 s + 1.5 s² − 0.25 s³, then 4.5 m/s
     assert TRIANGLE.displacement(at)[:, 0] == pytest.approx([0, 0, 0.0625, 0.5, 3.25, 7.5, 30.0], abs=1e-14)
     assert TRIANGLE.velocity(4.0)[1] == pytest.approx(-0.5) and TRIANGLE.velocity(3.0).shape == (2,)
-    assert TRIANGLE.displacement(np.zeros((2, 3))).shape == (2, 3, 2)
+    for call in (TRIANGLE.acceleration, TRIANGLE.velocity, TRIANGLE.displacement):
+        assert call(np.zeros((2, 3))).shape == (2, 3, 2) and call(1.5).shape == (2,)
+        assert call(np.array([[1.5], [3.0]]))[1, 0] == pytest.approx(call(3.0))
     assert TRIANGLE.drift.velocity == pytest.approx((4.5, -0.5))
     # −1/6, then −1/2 s − s²/2 + s³/6 of 2 s
     assert TRIANGLE.drift.displacement == pytest.approx((7.5, -1 / 6 - 1 - 2 + 4 / 3))
@@ -149,8 +151,9 @@ def test_a_motion_that_is_reversed_begins_later_or_goes_along_a_line():
     for call in (up.along, late.starting, up.resampled):
         with pytest.raises(motions.GroundMotionError, match="give "):
             call("1")
-    with pytest.raises(motions.GroundMotionError, match="^angle 91: give degrees from -90 to 90"):
-        up.along(91)
+    for angle in (90.5, -90.5):
+        with pytest.raises(motions.GroundMotionError, match=f"^angle {angle}: give degrees from -90 to 90"):
+            motions.GroundMotion([0, 1], [2, 2]).along(angle)
 
 
 def test_resampled_values_lie_on_the_straight_pieces_and_end_with_the_record():
@@ -296,6 +299,7 @@ def test_a_made_up_earthquake_has_the_frequency_and_the_envelope_that_were_asked
         (lambda: made_up.sine(200, 2), r"horizontal\[\d+\] .*: give m/s², at most 98"),
         (lambda: made_up.stochastic(1, 10, 2, seed=-1), "seed -1: give a whole number from 0"),
         (lambda: made_up.stochastic(1, 10, 2, seed=1.5), "seed 1.5: give a whole number"),
+        (lambda: made_up.stochastic(1, 10, 2, seed=2**32), "seed 4294967296: give a whole number"),
         (lambda: made_up.stochastic(1, 10, 20, seed=1), "step 0.01: give seconds, from 1e-05 to 0.005"),
         (lambda: made_up.stochastic(1, 10, 2, 1, damping=0), "damping 0: give a number from 0.05 to 2"),
         (lambda: made_up.stochastic(1, 10, 2, 1, vertical_peak=-1), "vertical_peak -1: give 0 or more m/s²"),

@@ -106,10 +106,4 @@ def stochastic(peak, duration, frequency, seed, vertical_peak=0.0, damping=DAMPI
     )
     if vertical_peak:
         told += f", vertical peak {vertical_peak:g} m/s²"
-    return GroundMotion(
-        time,
-        horizontal,
-        component(vertical_peak) if vertical_peak else None,
-        name="synthetic filtered noise",
-        source=told,
-    )
+    return GroundMotion(time, horizontal, component(vertical_peak), name="synthetic filtered noise", source=told)
