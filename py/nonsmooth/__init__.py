@@ -25,6 +25,8 @@ FACE = {
     "section_parts": "model.section.parts",
     "section_values": "model.section.values",
     "similar": "model.section.similar",
+    "ground_motion": "model.ground_motion",
+    "newmark": "measure.newmark",
     "packing_files": "packing.files",
     "parameters": "system.parameters",
     "scene": "world.scene",

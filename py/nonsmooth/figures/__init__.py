@@ -17,6 +17,7 @@ from .numerics import energy, solver
 from .profiles import deposit, snapshots
 from .runouts import runouts
 from .scene import draw
+from .shaking import shaking
 from .sweep import means
 from .toe import toe, toes
 from .weakening import weakening
@@ -37,6 +38,7 @@ __all__ = [
     "energy",
     "means",
     "runouts",
+    "shaking",
     "solver",
     "toe",
     "toes",

@@ -13,6 +13,7 @@ Of a slope:
 * :mod:`.toe`, :mod:`.toe_bands`: the passive strength of the toe, and its shear bands
 * :mod:`.creep`: how fast a mass goes on moving
 * :mod:`.weakening`: which part of a slip surface has lost its strength
+* :mod:`.newmark`: how far a rigid block slides on a plane that shakes
 
 Of tests and heaps:
 

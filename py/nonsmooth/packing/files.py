@@ -5,14 +5,13 @@ from __future__ import annotations
 import contextlib
 import hashlib
 import math
-import os
-import stat
 from dataclasses import dataclass
 from pathlib import Path
 
 import numpy as np
 
 from ..errors import UserError
+from ..system.text_files import read_lines
 from ..system.whole_files import write_arrays, write_atomically
 
 __all__ = ["FORMAT", "Packing", "PackingError", "load", "read_text", "save", "write_text"]
@@ -112,19 +111,7 @@ def read_text(path) -> Packing:
     PackingError with file, line and remedy.
     """
     path = Path(path)
-    try:
-        with path.open("rb") as file:
-            if stat.S_ISCHR(os.fstat(file.fileno()).st_mode) or os.fstat(file.fileno()).st_size > LARGEST_FILE:
-                raise PackingError(
-                    f"{path}: has no end, or more than {LARGEST_FILE} bytes; give a text file of x y r [layer]"
-                )
-            lines = file.read().decode("utf-8").splitlines()
-    except UnicodeDecodeError as error:
-        raise PackingError(f"{path}: byte {error.start} is no text; give a text file of x y r [layer]") from None
-    except OSError as error:
-        raise PackingError(
-            f"{path}: cannot be read ({error.strerror}); " "give a readable text file of x y r [layer]"
-        ) from None
+    lines = read_lines(path, LARGEST_FILE, PackingError, "a text file of x y r [layer]")
     rows, announced, columns = [], None, None
     for number, line in enumerate(lines, 1):
         text, _, comment = line.partition("#")

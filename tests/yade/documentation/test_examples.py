@@ -600,3 +600,14 @@ def test_a_law_tester_finds_the_thresholds_of_the_law(output, angle):
             # normal, r φ²/4
             if world == "hard":
                 assert float(end) == pytest.approx(0.4 if key[0] == "roll" else 0.02, rel=0.02), key
+
+
+def test_newmarks_blocks_slide_as_the_page_shows(tmp_path):
+    """doc/shaking.rst: the stronger block slides less, and the picture is there."""
+    done = shell.run(
+        "yade-nonsmooth", os.path.join(ROOT, "doc", "examples", "newmark_blocks.py"), limit=300, cwd=tmp_path
+    )
+    assert done.returncode == 0, done.stderr
+    weak, strong = (float(one) for one in re.findall(r"slides (\S+) m", done.stdout))
+    assert 0.05 < strong < weak < 5 and "PGA 4 m/s²" in done.stdout
+    assert (tmp_path / "shaking.png").read_bytes()[:4] == b"\x89PNG"
