@@ -31,6 +31,7 @@ FACE = {
     "parameters": "system.parameters",
     "scene": "world.scene",
     "scene_arrays": "world.scene_arrays",
+    "shaking": "world.shaking",
     "tables": "world.tables",
     "worlds": "world.worlds",
     "soft": "world.soft",

@@ -5,7 +5,8 @@ import numpy as np
 import pytest
 from yade import O
 from yade.minieigenHP import Vector3
-from yade.nonsmooth import scene
+from yade.nonsmooth import scene, shaking
+from yade.nonsmooth.ground_motion import GroundMotion
 from yade.wrapper import GroundMotionEngine, NonsmoothTimeStepper
 
 from contact_scenes import G, begin, bits, box, engine, free_disk, loose_heap, material, run
@@ -244,3 +245,37 @@ def test_a_step_that_another_engine_chooses_brings_its_own_mean():
         lengths.add(O.dt)
     assert len(lengths) > 10
     assert O.bodies[disk].state.vel[0] == pytest.approx(-integrals(TIMES, EAST, O.time)[0], abs=1e-12)
+
+
+# ---- from a GroundMotion --------------------------------------------------------------------------------------------
+def test_a_motion_becomes_an_engine():
+    motion = GroundMotion(TIMES, EAST, UP)
+    floor = O.bodies.append(scene.segments([(-5, 0), (5, 0)], material(0.3)))
+    begin(dt=0.25)
+    run(2)
+    ground = shaking.ground_motion(motion, walls=floor)
+    assert (ground.begin, list(ground.ids)) == (O.time, floor) and O.time == 0.5
+    for time in (0.05, 0.3, 0.9, 1.5):
+        for which in ("acceleration", "velocity", "displacement"):
+            seen, told = getattr(ground, f"{which}At")(0.5 + time), getattr(motion, which)(time)
+            assert tuple(seen)[:2] == pytest.approx(tuple(told), rel=1e-12, abs=1e-14), which
+    level = shaking.ground_motion(GroundMotion(TIMES, EAST), begin=7)
+    assert level.vertical == [] and level.begin == 7 and level.ids == []
+
+
+@pytest.mark.parametrize(
+    "arguments, word",
+    [
+        (dict(motion=[0, 1]), "give a GroundMotion"),
+        (dict(begin=math.nan), "begin nan"),
+        (dict(begin="now"), "begin 'now'"),
+        (dict(walls=[3]), "walls has 3"),
+        (dict(walls=["DP"]), "walls has 'DP'"),
+        (dict(walls=[True]), "walls has True"),
+    ],
+)
+def test_a_scene_that_cannot_be_shaken(arguments, word):
+    free_disk()
+    with pytest.raises(shaking.ShakingError) as error:
+        shaking.ground_motion(**{"motion": GroundMotion(TIMES, EAST)} | arguments)
+    assert word in str(error.value) and "\n" not in str(error.value)

@@ -611,3 +611,12 @@ def test_newmarks_blocks_slide_as_the_page_shows(tmp_path):
     weak, strong = (float(one) for one in re.findall(r"slides (\S+) m", done.stdout))
     assert 0.05 < strong < weak < 5 and "PGA 4 m/s²" in done.stdout
     assert (tmp_path / "shaking.png").read_bytes()[:4] == b"\x89PNG"
+
+
+def test_a_shaken_disk_slides_as_newmarks_block():
+    """doc/shaking.rst: an engine that gives each step its mean, and an exact integration, have the same slip."""
+    done = shell.run("yade-nonsmooth", os.path.join(ROOT, "doc", "examples", "shaken_block.py"), limit=300)
+    assert done.returncode == 0, done.stderr
+    disk, block = (float(one) for one in re.findall(r"slid\w* (\S+) m", done.stdout))
+    # steps of 2 ms begin and end a slide a step late at most, and three digits are printed
+    assert disk == pytest.approx(block, rel=3e-3) and block > 0.5
