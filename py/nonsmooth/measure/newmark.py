@@ -10,8 +10,8 @@ s, and up with d + s. A motion that consists of straight pieces makes all of the
 block is a quadratic function of time within a piece: where it begins to slide, and where it stops or turns round, are
 roots of linear and of quadratic equations, and no step of time is chosen.
 
-These are own lines. pyNewmarkDisp, which computes such blocks too, is in no Debian, needs Numba, and takes one
-component of the motion. Needs no YADE.
+These are own lines: pyNewmarkDisp, which computes such blocks too, is not in Debian 12 and needs Numba; and few lines
+find the events exactly. Needs no YADE.
 """
 
 from __future__ import annotations
