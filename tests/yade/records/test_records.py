@@ -316,7 +316,7 @@ def test_what_a_study_has_not_is_left_out_and_asked_for_by_what_needs_it(tmp_pat
         assert np.array_equal(found.x, np.float32(disks["x"]) if compact else disks["x"])
     with pytest.raises(RecordsError, match=r"walls has shape \(2,\); give an axis"):
         records.write_snapshot(tmp_path / "b.npz", **{**disks, "walls": [0.0, 1.0]})
-    rule, remedy = synthetic.load("records.given").snapshot("layer", "wet")
+    rule, remedy = synthetic.load("records.snapshots").given_with("layer", "wet")
     assert not rule(found) and "a Snapshot that has layer, wet" in remedy
     assert rule(records.read_snapshot(records.write_snapshot(tmp_path / "c.npz", **disks, layer=[0, 1], wet=[1, 0])))
 
