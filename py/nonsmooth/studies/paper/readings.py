@@ -191,8 +191,8 @@ def run(
     are run once. Returns rows, a list of dictionaries, one for each reading and each of the ``platens`` between which
     its samples are tested; a reading that stands once is tested between its own.
 
-    ``pressures`` [Pa]; ``slopes``: whether the slopes are run. What a row would take from other tests, or from slopes,
-    is None in it.
+    ``pressures`` [Pa]; ``slopes``: whether the slopes, of about ``slope_disks``, are made and run. What a row would
+    take from other tests, or from slopes, is None in it.
 
     A row has ``name``, ``label``, ``platens``, ``folder`` (of its tests, below ``out``), and what
     :func:`.reading_numbers.row` says. ``progress``: called with the share done and what is being done. Raises what
@@ -200,7 +200,7 @@ def run(
     """
     out, wanted = Path(out), {}
     for name, reading in chosen.items():
-        data = [section_data.plain(slope_of(reading, slope_disks, seed)) for seed in seeds]
+        data = [section_data.plain(slope_of(reading, slope_disks, seed)) for seed in seeds] if slopes else None
         sloped_key = keys.key_of(data)
         for p in reading.platens:
             if p in platens or len(reading.platens) == 1:
