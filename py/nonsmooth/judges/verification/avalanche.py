@@ -12,7 +12,8 @@ from ... import figures, records
 from ...measure.energy import dissipated, turned_over
 from . import Claims, Findings, check
 from .cases import folder_of, run_cases
-from .convergence import QUICK, STEP, TOLERANCE, TOLERANCE_MOVING, slope
+from .slope_convergence import QUICK, TOLERANCE_MOVING, slope
+from .strength_convergence import STEP, TOLERANCE
 
 SUBJECT = "A whole avalanche"
 DISKS, SEEDS = 3000, (1, 2, 3, 4, 5)
