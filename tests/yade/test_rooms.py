@@ -241,3 +241,11 @@ def test_what_is_public_says_what_it_is_and_is_listed():
         names = [n for n in tree.body if isinstance(n, ast.Assign) and getattr(n.targets[0], "id", "") == "__all__"]
         unlisted += [module] if made and not names and not module.startswith("judges.") else []
     assert silent == [] and unlisted == []
+
+
+def test_no_two_classes_have_one_name():
+    """So that a message, a page or a search says which is meant."""
+    found = [
+        n.name for source, _ in sources().values() for n in ast.walk(ast.parse(source)) if isinstance(n, ast.ClassDef)
+    ]
+    assert sorted({name for name in found if found.count(name) > 1}) == []

@@ -72,7 +72,10 @@ _KINDS = dict.fromkeys(("layer", "ci", "cj"), np.int64) | dict.fromkeys(
 
 def checked(arrays, source):
     """Check ``arrays`` and make a Snapshot of them; ``source`` names the file in messages."""
-    wrong = lambda what, remedy: RecordsError(f"{source}: {what}; {remedy}")  # noqa: E731
+
+    def wrong(what, remedy):
+        return RecordsError(f"{source}: {what}; {remedy}")
+
     arrays = {name: value for name, value in arrays.items() if value is not None}
     if not any(name in arrays for name in _CONTACTS):
         arrays.update({name: np.zeros(0) for name in _CONTACTS})

@@ -127,9 +127,10 @@ def slope_convergence(bench):
         (k.step, k.tolerances[-1], k.moving),
         (*default[:2], k.tolerances_moving[-1]),
     }
-    case = lambda seed, h, r, m: dict(
-        disks=k.disks, seed=seed, time_step=h, tolerance=r, tolerance_moving=m, bond="before"
-    )  # noqa: E731
+
+    def case(seed, h, r, m):
+        return dict(disks=k.disks, seed=seed, time_step=h, tolerance=r, tolerance_moving=m, bond="before")
+
     standing, fallen = _standing(bench, k, lambda seed: case(seed, *default))
     cases = [
         case(s, *numbers)

@@ -169,7 +169,11 @@ class HeapResult:
 
     def summary(self):
         """Numbers of the run, a dictionary that JSON can hold."""
-        s, last = self.series, lambda name: float(self.series[name][-1])
+        s = self.series
+
+        def last(name):
+            return float(s[name][-1])
+
         return {
             "world": self.world,
             "settings": self.settings,

@@ -392,7 +392,7 @@ def test_plan_has_every_run_once():
     ],
 )
 def test_lists_that_cannot_be_used(change, wanted):
-    with pytest.raises(cases.ComparisonError, match=wanted):
+    with pytest.raises(cases.CaseError, match=wanted):
         cases.plan(**{"source": "slope", "disks": 300, "seeds": [1, 2], "stiffnesses": [1e8, 1e9], **change})
 
 
@@ -407,7 +407,7 @@ def test_lists_that_cannot_be_used(change, wanted):
     ],
 )
 def test_cost_refuses_before_it_measures(tmp_path, change, wanted):
-    with pytest.raises(cases.ComparisonError, match=wanted):
+    with pytest.raises(cases.CaseError, match=wanted):
         cost.run(tmp_path, **{"source": "jiufengershan", "disks": 300, "threads": 1, "stiffnesses": [1e8], **change})
     assert not list(tmp_path.iterdir())
 
@@ -460,7 +460,7 @@ def test_options_and_their_defaults():
     ],
 )
 def test_options_that_do_not_apply(words, wanted):
-    with pytest.raises(cases.ComparisonError, match=wanted):
+    with pytest.raises(cases.CaseError, match=wanted):
         options.read("", words.split())
 
 
@@ -502,16 +502,16 @@ def test_springs_too_weak_for_a_tall_column_are_refused_at_once():
         ).sweep
 
     course.check_stiffnesses(collapses.COLUMN, sweep(2.0))
-    with pytest.raises(cases.ComparisonError, match="--stiffness 1e\\+08: .* as --stiffness 1e\\+09,1e\\+10,1e\\+11"):
+    with pytest.raises(cases.CaseError, match="--stiffness 1e\\+08: .* as --stiffness 1e\\+09,1e\\+10,1e\\+11"):
         course.check_stiffnesses(collapses.COLUMN, sweep(6.0))
     course.check_stiffnesses(slopes, [soft_case()])  # others have no such limit
 
 
 def test_a_biaxial_test_needs_the_wall_time_of_its_steps_and_a_plateau(tmp_path):
-    with pytest.raises(cases.ComparisonError, match="wall_steps_s.*--resume"):
+    with pytest.raises(cases.CaseError, match="wall_steps_s.*--resume"):
         biaxials.measure(soft_case(source="wwr"), tmp_path, {"wall_s": 1.0})
     for strain in (0.001, 1.0, math.nan):
-        with pytest.raises(cases.ComparisonError, match="--strain"):
+        with pytest.raises(cases.CaseError, match="--strain"):
             biaxials.test_of(soft_case(source="wwr", options={"strain": strain}))
 
 
