@@ -1,6 +1,7 @@
 """The rooms of the package are those of doc/house.rst, and each imports only from those above it. Needs no YADE."""
 
 import ast
+import functools
 import importlib
 import re
 import subprocess
@@ -41,7 +42,7 @@ def room_of(module, among):
 def docstrings(tree):
     """Nodes of a module's texts that are read by people alone."""
     alone = (node.value for node in ast.walk(tree) if isinstance(node, ast.Expr))
-    return [node for node in alone if isinstance(node, ast.Constant)]
+    return {node for node in alone if isinstance(node, ast.Constant)}
 
 
 def named(text, here, modules):
@@ -59,9 +60,10 @@ def named(text, here, modules):
         first = max((one for one in face if f"{name}.".startswith(f"{one}.")), key=len, default=None)
         whole = name if first is None else face[first] + name[len(first) :]
         names.add(whole if whole in modules else whole.rpartition(".")[0])
-    return names & modules.keys() - {"", "studies"}  # which holds rooms
+    return names & modules - {"", "studies"}  # which holds rooms
 
 
+@functools.cache
 def imports(module, source, package, modules):
     """Modules of the package that one imports, wherever in it, also those that a text names."""
     found, tree = set(), ast.parse(source)
@@ -93,7 +95,7 @@ def back_up(modules, among):
     order = {room: k for k, room in enumerate(among)}
     arrows = []
     for module, (source, package) in modules.items():
-        for one in imports(module, source, package, modules) if module else ():
+        for one in imports(module, source, package, frozenset(modules)) if module else ():
             here, there = room_of(module, among), room_of(one, among)
             if here != there and (here is None or there is None or order[there] > order[here]):
                 arrows.append((module, one))
