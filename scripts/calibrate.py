@@ -104,7 +104,10 @@ def main():
     path = Path(args.out)
     work = path.with_name(path.stem + "-calibration")
     output_folder.claim(work, "calibrate.py", args.resume)
-    say = lambda text: print(f"{text} ({time.monotonic() - began:.0f} s)", flush=True)  # noqa: E731
+
+    def say(text):
+        return print(f"{text} ({time.monotonic() - began:.0f} s)", flush=True)
+
     with arguments.bar() as progress:
         search = calibration.Calibration(
             wanted, materials.load(args.start, "--start"), work, args.threads, say, args.resume, progress

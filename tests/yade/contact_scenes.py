@@ -1,5 +1,6 @@
 """Small scenes that several tests share."""
 import contextlib
+import dataclasses
 import math
 import os
 import random
@@ -121,3 +122,9 @@ def bits():
     bodies, rows = engine().bodyTable(), np.frombuffer(engine().contactTable()).reshape(-1, 12)
     order = np.lexsort((rows[:, :2].max(axis=1), rows[:, :2].min(axis=1)))
     return bodies, rows[order].tobytes()
+
+
+def without_contacts(problem):
+    """The bodies of a ContactProblem alone."""
+    names = "body normal lever bias adhesion friction rolling_arm length warm_start impulse".split()
+    return dataclasses.replace(problem, **{name: getattr(problem, name)[:0] for name in names})

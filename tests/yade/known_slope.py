@@ -13,6 +13,7 @@ import numpy as np
 import synthetic_slope as synthetic
 
 records, section = synthetic.load("records"), synthetic.load("model.section")
+COLUMNS, WALL_COLUMNS = (getattr(synthetic.load("studies.slope.columns"), name) for name in ("COLUMNS", "WALL_COLUMNS"))
 SHIPPED = section.load("jiufengershan")
 ROW, COUNT = 0.1, 1000
 STATE = {
@@ -88,7 +89,7 @@ def series():
             [settling, np.abs(t - 31) < 0.05, np.abs(t - 70) < 0.05], [0.9, 0.02, -0.01], 0.0
         ),
     }
-    return {name: known.get(name, np.zeros(COUNT)) for name in records.COLUMNS}
+    return {name: known.get(name, np.zeros(COUNT)) for name in COLUMNS}
 
 
 def pile(columns, section, bottom, heights, stray=()):

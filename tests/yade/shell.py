@@ -37,6 +37,15 @@ def run(program, *arguments, limit=600, cwd=None, given=None, **changes):
     )
 
 
+def batch(table, script, folder, log):
+    """yade-batch in a folder, one job after the other, with the lines of a table; ``log``: of each, "@" its name.
+    Returns a subprocess.CompletedProcess with text.
+    """
+    kept = {k: v for k, v in os.environ.items() if k not in ("OMP_NUM_THREADS", "YADE_BATCH")}
+    command = [PREFIX / "bin" / "yade-batch", "-j1", "--log", log, table, script]
+    return subprocess.run(command, cwd=folder, env=kept, text=True, capture_output=True, timeout=300)
+
+
 def start(name, *arguments, limit=None, **changes):
     """A command that goes on beside the test; ``limit``: of the size of its files [bytes]; ``changes``: of the
     environment.

@@ -27,6 +27,7 @@ from yade.nonsmooth.studies.comparison import (
     summary,
 )
 from yade.nonsmooth.studies.comparison.outcomes import Cost, Outcome
+from yade.nonsmooth.studies.slope.columns import COLUMNS
 
 
 @pytest.fixture
@@ -45,7 +46,7 @@ def run(tmp_path, monkeypatch):
     """A run of 100 s whose rows, one a second, settle until 10 s, with a snapshot every ten seconds, and one of t1;
     video and ParaView files are kept as their arguments.
     """
-    rows = {name: np.zeros(101) for name in records.COLUMNS} | {
+    rows = {name: np.zeros(101) for name in COLUMNS} | {
         "step": np.arange(101) * 100,
         "time_s": np.where(np.arange(101) == 42, 42.1, np.arange(101.0)),
         "stage": (np.arange(101) >= 10).astype(int),
@@ -55,7 +56,7 @@ def run(tmp_path, monkeypatch):
         "energy_kinetic_J": 1e9 * np.arange(101),
         "tolerance": np.full(101, 1e-6),
     }
-    with records.SeriesWriter(tmp_path / "series.csv", records.COLUMNS) as file:
+    with records.SeriesWriter(tmp_path / "series.csv", COLUMNS) as file:
         for k in range(101):
             file.write({name: values[k] for name, values in rows.items()})
     (tmp_path / "snapshots").mkdir()

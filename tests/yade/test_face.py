@@ -167,7 +167,9 @@ def test_what_a_run_has_not_is_told(whole, tmp_path):
 def test_a_frame_has_the_columns(whole, monkeypatch):
     run = runs.open_run(whole.folder)
     frame, walls = run.frame("series"), run.frame("walls")
-    assert list(frame.columns) == list(records.COLUMNS) and np.array_equal(frame["front_m"], run.series["front_m"])
+    assert list(frame.columns) == list(runs.SlopeRun.COLUMNS) and np.array_equal(
+        frame["front_m"], run.series["front_m"]
+    )
     assert walls.groupby("wall").normal_N_per_m.max()["FB"] == run.series["fb_normal_N_per_m"].max()
     monkeypatch.setitem(sys.modules, "pandas", None)  # as where it is not installed
     with pytest.raises(runs.RunError, match="apt install python3-pandas"):

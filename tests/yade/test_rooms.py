@@ -1,6 +1,7 @@
 """The rooms of the package are those of doc/house.rst, and each imports only from those above it. Needs no YADE."""
 
 import ast
+import functools
 import importlib
 import re
 import subprocess
@@ -38,10 +39,41 @@ def room_of(module, among):
     return max((room for room in among if f"{module}.".startswith(f"{room}.")), key=len, default=None)
 
 
+def docstrings(tree):
+    """Nodes of a module's texts that are read by people alone."""
+    alone = (node.value for node in ast.walk(tree) if isinstance(node, ast.Expr))
+    return {node for node in alone if isinstance(node, ast.Constant)}
+
+
+def named(text, here, modules):
+    """Modules that a text names for an import that a process makes later: "studies.laboratory.biaxial:run", as
+    processes.call takes it, "..records" and "yade.nonsmooth.records", as importlib does, and commands with the latter
+    in them; ``here``: the parts of the module that the text stands in.
+    """
+    names = {found.strip(".") for found in re.findall(r"\b(?:yade\.)?nonsmooth\.([a-z_.]+)", text)}
+    if re.fullmatch(r"[a-z_]+(\.[a-z_]+)+(:\w+)?|[a-z_.]+:[a-z_]+", text):
+        names.add(text.partition(":")[0])
+    if re.fullmatch(r"\.+[a-z_.]+", text):
+        names |= {".".join([*here[:k], text.strip(".")]) for k in range(len(here))}
+    face = importlib.import_module("nonsmooth").FACE
+    for name in list(names):  # by its public name, or with an attribute behind it
+        first = max((one for one in face if f"{name}.".startswith(f"{one}.")), key=len, default=None)
+        whole = name if first is None else face[first] + name[len(first) :]
+        names.add(whole if whole in modules else whole.rpartition(".")[0])
+    return names & modules - {"", "studies"}  # which holds rooms
+
+
+@functools.cache
 def imports(module, source, package, modules):
-    """Modules of the package that one imports, wherever in it."""
-    found = set()
-    for node in ast.walk(ast.parse(source)):
+    """Modules of the package that one imports, wherever in it, also those that a text names."""
+    found, tree = set(), ast.parse(source)
+    silent = docstrings(tree)
+    for node in ast.walk(tree):
+        if isinstance(node, ast.Import):
+            for alias in node.names:
+                found |= named(alias.name, module.split("."), modules)
+        if isinstance(node, ast.Constant) and isinstance(node.value, str) and node not in silent:
+            found |= named(node.value, module.split("."), modules)
         if not isinstance(node, ast.ImportFrom):
             continue
         if node.level:
@@ -63,7 +95,7 @@ def back_up(modules, among):
     order = {room: k for k, room in enumerate(among)}
     arrows = []
     for module, (source, package) in modules.items():
-        for one in imports(module, source, package, modules) if module else ():
+        for one in imports(module, source, package, frozenset(modules)) if module else ():
             here, there = room_of(module, among), room_of(one, among)
             if here != there and (here is None or there is None or order[there] > order[here]):
                 arrows.append((module, one))
@@ -108,6 +140,10 @@ def test_no_room_imports_from_one_below_it():
         ("studies.laboratory.walls", "from ..comparison import cases"),
         ("records.series", "from yade.nonsmooth.world import tables"),
         ("model.geometry", "from .. import campaign"),
+        ("records.columns", "__getattr__ = lambda name: importlib.import_module('...studies.slope.columns', __name__)"),
+        ("records.series", "import yade.nonsmooth.world.tables"),
+        ("running.processes", "FUNCTION = 'studies.slope.slope_run:run'"),
+        ("figures.moving", "COMMAND = f'import yade.nonsmooth.experiment; yade.nonsmooth.experiment.row({1})'"),
     ],
 )
 def test_an_import_that_runs_back_up_is_seen(module, line):
@@ -207,3 +243,11 @@ def test_what_is_public_says_what_it_is_and_is_listed():
         names = [n for n in tree.body if isinstance(n, ast.Assign) and getattr(n.targets[0], "id", "") == "__all__"]
         unlisted += [module] if made and not names and not module.startswith("judges.") else []
     assert silent == [] and unlisted == []
+
+
+def test_no_two_classes_have_one_name():
+    """So that a message, a page or a search says which is meant."""
+    found = [
+        n.name for source, _ in sources().values() for n in ast.walk(ast.parse(source)) if isinstance(n, ast.ClassDef)
+    ]
+    assert sorted({name for name in found if found.count(name) > 1}) == []

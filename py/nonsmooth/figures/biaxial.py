@@ -9,7 +9,8 @@ from matplotlib.colors import Normalize
 from matplotlib.patches import Patch
 
 from ..measure import strength
-from ..records import RecordsError, read_snapshot
+from ..records import RecordsError
+from ..records.snapshots import read_with
 from ..world.scene_arrays import Scene
 from . import forces, given, moving, style
 
@@ -159,12 +160,10 @@ def film(paths, words, path):
 
     Raises RecordsError where there is no frame, for one without angles or walls, and for a file that cannot be made.
     """
-    shots, none, ids = [read_snapshot(one) for one in paths], np.zeros(0), np.zeros(0, int)
+    shots = [read_with(one, "a biaxial test", "angle", "walls") for one in paths]
+    none, ids = np.zeros(0), np.zeros(0, int)
     if not shots:
         raise RecordsError("there are no frames to make a video of; let the test write some first")
-    for one, s in zip(paths, shots):
-        if s.angle is None or s.walls is None:
-            raise RecordsError(f"{one}: has no angle or no walls; give frames of a biaxial test")
     turned = [s.angle - shots[0].angle for s in shots]
     heights = [np.ptp(s.walls[s.walls[:, 0] == 1, 1]) for s in shots]
     scale, strains = _turns(turned), {s.time_s: 1 - height / heights[0] for s, height in zip(shots, heights)}

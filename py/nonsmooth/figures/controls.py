@@ -194,9 +194,10 @@ def speeds(cases, path=None, pdf=False, moving=0.2):
                 right.plot(when - t3, percent / 100 * speed.max(), "o", ms=4.5, color=colours[k], zorder=4)
                 ends.append(when - t3)
         largest = max(largest, float(speed.max()))
-    mean = lambda name, percent: [  # noqa: E731
-        (s[name][f"{percent}"] - s["times_s"]["t3"]) for _, s in cases if s[name][f"{percent}"] is not None
-    ]
+
+    def mean(name, percent):
+        return [(s[name][f"{percent}"] - s["times_s"]["t3"]) for _, s in cases if s[name][f"{percent}"] is not None]
+
     for ax, name, percents, told in (
         (left, "t2_by_speed_s", FASTER, lambda p, v: f"{p / 100 * moving:.3g} m/s: {-np.mean(v):.1f} s before $t_3$"),
         (right, "t5_by_speed_s", RESTING, lambda p, v: f"{p} % of the largest: {np.mean(v):.1f} s after $t_3$"),

@@ -200,11 +200,16 @@ def _sketch(ax, side, name, back, wet, rise=None, coloured=True):
     backstop, empty where there is none; ``rise``: of a water table that is a plane of its own, over its way down the
     slope, 0 where it is level; ``coloured``: whether a colour is a force's. Names that are no index have no room.
     """
-    symbol = lambda letter, of: (lambda told: told if " (" not in told else f"${letter}$")(
-        style.symbol(letter, of)
-    )  # noqa: E731
+
+    def symbol(letter, of):
+        told = style.symbol(letter, of)
+        return told if " (" not in told else f"${letter}$"
+
     style.frame(ax, *sorted((-10.8 * side, 4.6 * side)), -1.6, 6.6)
-    at = lambda points: np.asarray(points) * (side, 1)  # noqa: E731
+
+    def at(points):
+        return np.asarray(points) * (side, 1)
+
     slope, after = np.tan(np.radians(21)), "left" if side > 0 else "right"
     plane = np.array([[-10, 10 * slope], [0, 0]])
     wall = np.array([[0, 0], [1.0, 2.6]])
@@ -279,7 +284,10 @@ def forces_against_time(series, times, path=None, pdf=False, window=1.0, walls=N
     dashed = (0, (3, 1.2))
     if own:
         colours = dict(zip((one[0] for one in own), itertools.cycle(style.STACKED)))
-        of_wall = lambda letter, wall, what: f"${letter}$  {what} on {style.plain(wall)}"  # noqa: E731
+
+        def of_wall(letter, wall, what):
+            return f"${letter}$  {what} on {style.plain(wall)}"
+
         normal = [(of_wall("N", wall, "total"), curve(force), colours[wall], "-") for wall, force, _, _ in own]
         normal += [
             (of_wall("N'", wall, "effective"), curve(force), colours[wall], dashed) for wall, _, force, _ in own if wet

@@ -10,7 +10,8 @@ from pathlib import Path
 from matplotlib.backend_bases import FigureCanvasBase
 
 from ..records import RecordsError
-from ..records.given import FILE, SNAPSHOT, snapshot
+from ..records.given import FILE
+from ..records.snapshots import given_with as snapshot
 from ..system import checks
 
 __all__ = [
@@ -30,6 +31,7 @@ __all__ = [
     "takes",
 ]
 
+SNAPSHOT = snapshot("layer")
 SERIES = checks.kind(Mapping, "give columns {name: array}, as run.series or records.read_series(path) has them")
 SECTION = checks.has("walls layers downslope", "give a Section, as section.load('circle') returns one")
 MATERIAL = checks.has(

@@ -391,8 +391,13 @@ def _slope(ax, dip, along, normal, forces):
     """
     side, beta = -1.0 if dip < 0 else 1.0, abs(dip)
     low, high = -5.0, 5.0  # down the slope
-    at = lambda s, n: s * along + n * normal  # noqa: E731
-    strip = lambda a, b: [at(low, a), at(high, a), at(high, b), at(low, b)]  # noqa: E731
+
+    def at(s, n):
+        return s * along + n * normal
+
+    def strip(a, b):
+        return [at(low, a), at(high, a), at(high, b), at(low, b)]
+
     box = np.array(strip(0, 8.3))
     (x0, y0), (x1, y1) = box.min(axis=0) - (0.3, 1.3), box.max(axis=0) + (0.3, 0.2)
     style.frame(ax, x0, x1, y0, y1)

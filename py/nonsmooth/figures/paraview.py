@@ -14,6 +14,7 @@ import meshio
 import numpy as np
 
 from ..records import RecordsError, given, read_breaks, read_snapshot
+from ..records.snapshots import given_with
 from ..system import checks
 from ..system.whole_files import beside, write_atomically
 from ..world.scene_arrays import read as read_scene
@@ -45,7 +46,7 @@ def _write(path, points, cells, point_data=None, cell_data=None):
     return path
 
 
-@given.takes(snapshot=given.snapshot())
+@given.takes(snapshot=given_with())
 def write_disks(snapshot, path):
     """One point a disk, with ``radius`` [m] and, where the snapshot has them, ``layer`` (0 lowest), ``velocity`` [m/s],
     ``speed`` [m/s], ``angle`` [rad], ``wet``, ``released``, ``ever_wet`` and ``weakened`` (on any wall or interface);
@@ -67,7 +68,7 @@ def write_disks(snapshot, path):
     return _write(path, np.column_stack([s.x, s.y]), [("vertex", np.arange(len(s.x))[:, None])], point_data=data)
 
 
-@given.takes(snapshot=given.snapshot("ci"))
+@given.takes(snapshot=given_with("ci"))
 def write_contacts(snapshot, path):
     """One line a contact, from centre to centre or from centre to wall, with ``normal`` and ``tangential`` force [N/m],
     compression positive, and ``bonded``."""

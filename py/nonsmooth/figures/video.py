@@ -10,8 +10,9 @@ from matplotlib.patches import Patch
 
 from .. import records
 from ..measure.ground import ground_of
-from ..records import RecordsError, read_snapshot
+from ..records import RecordsError
 from ..records.given import FILE
+from ..records.snapshots import read_with
 from ..system import checks
 from . import film, given, style
 
@@ -137,11 +138,7 @@ def _sample(paths):
 
 
 def _read(path):
-    found = read_snapshot(path)
-    lacking = [name for name in ("layer", "vx", "vy", "wet", "released", "water_m") if getattr(found, name) is None]
-    if lacking:
-        raise RecordsError(f"{path}: has no {', '.join(lacking)}; give snapshots of a slope")
-    return found
+    return read_with(path, "a slope", "layer", "vx", "vy", "wet", "released", "water_m")
 
 
 @given.takes(snapshot_paths=SNAPSHOTS, walls=given.WALLS, path=FILE, series=SERIES)

@@ -121,7 +121,10 @@ def measure(series, plateau):
         return found
     begin, peak, end = (np.array([getattr(one, name) for one in cycles]) for name in ("begin", "peak", "end"))
     settled = np.minimum(end + SHORT, len(volume) - 1)
-    falls = lambda first, last: volume[first : last + 1].min() < volume[first]  # noqa: E731
+
+    def falls(first, last):
+        return volume[first : last + 1].min() < volume[first]
+
     dilates, contracts = volume[peak] > volume[begin], np.array([falls(a, b) for a, b in zip(peak, settled)])
     rows = round(float(np.mean(settled - peak)))
     found |= {
@@ -135,8 +138,11 @@ def measure(series, plateau):
     }
     if ENERGY in series:
         energy = np.asarray(series[ENERGY], float)[late]
+
         # a row is what it covers, so that of a peak is the last of the build-up
-        phase = lambda first, last: np.concatenate([energy[a + 1 : b + 1] for a, b in zip(first, last)])  # noqa: E731
+        def phase(first, last):
+            return np.concatenate([energy[a + 1 : b + 1] for a, b in zip(first, last)])
+
         for name, rows in (("build", phase(begin, peak)), ("drop", phase(peak, settled))):
             found[f"cycle_energy_{name}_rel"] = float(np.mean(rows) / np.mean(energy))
     return found

@@ -69,8 +69,13 @@ def statements(series, times, friction, mean, backstop=True) -> dict[str, float 
     if None in (t0, t1):
         return found
     t = series["time_s"]
-    at = lambda name, when: mean(f"{name}_N_per_m", when)  # noqa: E731
-    change = lambda name: at(name, t1) - at(name, t0)  # noqa: E731
+
+    def at(name, when):
+        return mean(f"{name}_N_per_m", when)
+
+    def change(name):
+        return at(name, t1) - at(name, t0)
+
     normal, effective, shear, push = "dp_normal_total", "dp_normal_effective", "dp_shear", "fb_normal"
     found["normal_change"] = _ratio(change(normal), at(normal, t0))
     rising = (t > t0) & (t <= t1)

@@ -10,14 +10,14 @@ from ..errors import UserError
 from ..model import stacks
 from ..model.roles import chord
 
-__all__ = ["Ground", "GroundError", "Wall", "ground_of"]
+__all__ = ["Ground", "GroundError", "WallLine", "ground_of"]
 
 
 class GroundError(UserError, ValueError):
     """Walls that are none; the message says which, and what is needed."""
 
 
-class Wall(NamedTuple):
+class WallLine(NamedTuple):
     """``vertices``: (n, 2) [m]; ``role``: see :mod:`.roles`, None where nobody said; ``buried``: an interface between
     layers, which is no wall.
     """
@@ -31,11 +31,11 @@ class Wall(NamedTuple):
 class Ground:
     """Walls, and what follows from them.
 
-    ``walls``: list of Wall; ``side``: 1 for a slope that falls to the right, −1 to the left; ``water``: (points (n, 2)
-    [m], unit normal) of the plane from which water is measured, or None; ``layers``: their names, empty where they have
-    none; ``mass``: numbers of the layers that are neither bed nor obstacle, None: all are mass; ``base``: name of the
-    wall from which water is measured, None where it is measured from a plane of its own; ``weakening``: {number: Wall}
-    of those that weaken with slip, by their column of :attr:`.records.Snapshot.weakened`.
+    ``walls``: list of WallLine; ``side``: 1 for a slope that falls to the right, −1 to the left; ``water``: (points (n,
+    2) [m], unit normal) of the plane from which water is measured, or None; ``layers``: their names, empty where they
+    have none; ``mass``: numbers of the layers that are neither bed nor obstacle, None: all are mass; ``base``: name of
+    the wall from which water is measured, None where it is measured from a plane of its own; ``weakening``: {number:
+    WallLine} of those that weaken with slip, by their column of :attr:`.records.Snapshot.weakened`.
     """
 
     def __init__(self, walls, side, water, layers=(), mass=None, base=None, weakening=None):
@@ -145,9 +145,11 @@ def ground_of(walls):
         vertices = np.asarray(vertices, dtype=float)
         if vertices.ndim != 2 or vertices.shape[1] != 2 or len(vertices) < 2:
             raise GroundError(f"wall {name} has vertices of shape {vertices.shape}; give at least two points (x, y)")
-        found.append(Wall(str(name), vertices, role))
+        found.append(WallLine(str(name), vertices, role))
     if hasattr(walls, "interfaces"):
-        found += [Wall(i.name, line, i.role, buried=True) for i in walls.interfaces if len(line := walls.line_of(i))]
+        found += [
+            WallLine(i.name, line, i.role, buried=True) for i in walls.interfaces if len(line := walls.line_of(i))
+        ]
     layers = [layer for layer in getattr(walls, "layers", ()) if hasattr(layer, "role")]
     mass = [k for k, layer in enumerate(layers) if layer.role == "mass"]
     slip = [wall for wall in found if wall.role == "slip"]

@@ -45,7 +45,10 @@ def over_seeds(values) -> dict:
     """``mean``, ``half_width`` of its 95 % interval and the ``values`` themselves, one a seed, as JSON can hold them:
     the first two None where a value is (a run that did not come to it), ``half_width`` also for one seed."""
     mean = Estimate.of([math.nan if v is None else v for v in values])
-    plain = lambda v: None if math.isnan(v) else v  # noqa: E731
+
+    def plain(v):
+        return None if math.isnan(v) else v
+
     return {"mean": plain(mean.mean), "half_width": plain(mean.half_width), "values": list(values)}
 
 

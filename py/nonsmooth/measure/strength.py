@@ -27,7 +27,7 @@ __all__ = [
     "SHORTEST",
     "SOFTENED",
     "Curve",
-    "Envelope",
+    "MohrEnvelope",
     "apparent_deg",
     "axial_stress",
     "curve",
@@ -92,7 +92,10 @@ def curve(series, plateau):
         if around.sum() > 2
         else math.nan
     )
-    gap = lambda where: abs(top[where].mean() / bottom[where].mean() - 1)  # noqa: E731
+
+    def gap(where):
+        return abs(top[where].mean() / bottom[where].mean() - 1)
+
     return Curve(
         peak=float(mean[k]),
         peak_strain=float(middle),
@@ -161,7 +164,7 @@ def apparent_deg(minor, major) -> float:
 
 
 @dataclass(frozen=True)
-class Envelope:
+class MohrEnvelope:
     """Cohesion [Pa], angle of friction [°], and the relative miss of each circle."""
 
     cohesion: float
@@ -190,4 +193,4 @@ def envelope(minor, major):
     sine = min(float(sine), 0.999)
     cosine = math.sqrt(1 - sine * sine)
     misses = 1 - (a * unit + s * sine) / t
-    return Envelope(float(a) * unit / cosine, math.degrees(math.asin(sine)), tuple(misses.tolist()))
+    return MohrEnvelope(float(a) * unit / cosine, math.degrees(math.asin(sine)), tuple(misses.tolist()))

@@ -79,7 +79,10 @@ def passive(section, cohesion, friction_deg, packing_fraction):
 
     dry = k * 0.5 * bulk * math.cos(beta) * thickness**2 + 2 * cohesion * math.sqrt(k) * thickness
     found = Toe(None, thickness, push(0.0), dry, None, 0.5 * k * lift)
-    miss = lambda h: push(h) - found.resistance(h)  # noqa: E731
+
+    def miss(h):
+        return push(h) - found.resistance(h)
+
     if not miss(0.0) < 0 < miss(thickness):
         return found
     height = brentq(miss, 0.0, thickness)

@@ -28,7 +28,10 @@ def travel(start, end, density, side=1.0, mass=None) -> dict[str, float | None]:
     x, y, r, weight = _mass(start, density, mass)
     x1, y1, r1, weight1 = _mass(end, density, mass)
     crown, last = int(np.argmax(y + r)), front_disk(x1, r1, side)
-    mean = lambda values, weights: float(np.average(values, weights=weights))  # noqa: E731
+
+    def mean(values, weights):
+        return float(np.average(values, weights=weights))
+
     extreme = _line(y[crown] + r[crown] - (y1[last] - r1[last]), side * (x1[last] - x[crown]) + r1[last])
     centre = _line(mean(y, weight) - mean(y1, weight1), side * (mean(x1, weight1) - mean(x, weight)))
     return dict(zip(NAMES, (*extreme, *centre), strict=True))

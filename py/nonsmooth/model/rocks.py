@@ -187,7 +187,10 @@ def like_table(material) -> bool:
     """Whether a section.Material has the contact parameters that are fixed in the table, so that the table may say what
     its others make.
     """
-    plain = lambda value: list(value) if isinstance(value, tuple) else value  # noqa: E731
+
+    def plain(value):
+        return list(value) if isinstance(value, tuple) else value
+
     return all(plain(getattr(material, key)) == value for key, value in _fixed().items())
 
 
@@ -200,7 +203,11 @@ def asked(material) -> Contacts | None:
     if e is None or not (e.cohesion > 0 and low <= e.friction_deg <= high and like_table(material)):
         return None
     found = contacts(e.cohesion, e.friction_deg)
-    near = lambda a, b: math.isclose(a, b, rel_tol=1e-3)  # noqa: E731; of a scaled section another last digit
+
+    # of a scaled section another last digit
+    def near(a, b):
+        return math.isclose(a, b, rel_tol=1e-3)
+
     same = near(material.friction, found.friction) and near(material.tensile_strength, found.tensile_strength)
     return found if same else None
 

@@ -53,7 +53,10 @@ def assigned(section):
         and length[w.name] > LEANS * section.tolerance
         and _facing(w, lean[w.name], down) <= -FACES
     ]
-    role = lambda name: "slip" if name in slip else "backstop" if name in backstops else "ground"  # noqa: E731
+
+    def role(name):
+        return "slip" if name in slip else "backstop" if name in backstops else "ground"
+
     return tuple(dataclasses.replace(w, role=w.role or role(w.name)) for w in section.walls)
 
 

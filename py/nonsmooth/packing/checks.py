@@ -40,8 +40,13 @@ def check(packing, section, source) -> None:
     how much of the layers it fills.
     """
     remedy = "give a packing of this section, or the section that it was made for"
-    refuse = lambda what, helps=remedy: PackingError(f"{source}: {what}; {helps}")  # noqa: E731
-    at = lambda k: f"disk {k} at ({packing.x[k]:.6g}, {packing.y[k]:.6g}) m"  # noqa: E731
+
+    def refuse(what, helps=remedy):
+        return PackingError(f"{source}: {what}; {helps}")
+
+    def at(k):
+        return f"disk {k} at ({packing.x[k]:.6g}, {packing.y[k]:.6g}) m"
+
     names = [layer.name for layer in section.layers]
     bad = np.flatnonzero((packing.layer < 0) | (packing.layer >= len(names)))
     if len(bad):

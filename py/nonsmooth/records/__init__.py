@@ -2,12 +2,13 @@
 snapshots (``.npz``).
 
 All can be read and written without YADE. All quantities are in SI units, forces and energies per metre of
-thickness (the model is two-dimensional). ``COLUMNS`` and ``WALL_COLUMNS`` are those of a slope. Every failure is a
-:class:`RecordsError` that names the file, what is wrong with it and what to do.
+thickness (the model is two-dimensional). A study declares the columns of its series; an opened run says what they are
+(``runs.open_run(folder).columns``). Every failure is a :class:`RecordsError` that names the file, what is wrong with it
+and what to do.
 """
 
 from .breaks import BREAK_COLUMNS, read_breaks, write_breaks
-from .columns import LOSSES, OWN, Column, __getattr__, column, declared, own_columns, stem
+from .columns import LOSSES, OWN, Column, column, declared, own_columns, stem
 from .error import RecordsError
 from .series import SeriesWriter, broken_bonds, kept, read_series, read_walls, since_settled
 from .snapshots import Snapshot, read_snapshot, write_snapshot

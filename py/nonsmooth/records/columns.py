@@ -2,7 +2,6 @@
 how, and what several studies have.
 """
 
-import importlib
 import re
 from typing import NamedTuple
 
@@ -105,12 +104,3 @@ def stem(name):
 def own_columns(surfaces):
     """The columns of slip surfaces of these names, in the order of a series: a tuple."""
     return tuple(column(name, surface) for surface in surfaces for name in OWN)
-
-
-def __getattr__(name):
-    """``COLUMNS`` and ``WALL_COLUMNS`` of a slope, which scripts and notebooks ask for here; they are declared in its
-    own room.
-    """
-    if name in ("COLUMNS", "WALL_COLUMNS"):
-        return getattr(importlib.import_module("...studies.slope.columns", __name__), name)
-    raise AttributeError(f"module {__name__!r} has no attribute {name!r}")

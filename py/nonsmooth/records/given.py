@@ -6,20 +6,10 @@ import os
 from ..system import checks
 from .error import RecordsError
 
-__all__ = ["BREAKS", "ENTRIES", "FILE", "SNAPSHOT", "snapshot", "takes"]
+__all__ = ["BREAKS", "ENTRIES", "FILE", "takes"]
 
 FILE = (lambda v: isinstance(v, (str, os.PathLike)) and bool(os.fspath(v)), "give the path of the file to write")
 
-
-def snapshot(*more):
-    """The rule of a Snapshot that has ``x``, ``y``, ``r`` and ``more``, names of what not every study has."""
-    names = ("x", "y", "r", *more)
-    told = f" that has {', '.join(more)}" if more else ""
-    remedy = f"give a Snapshot{told}, as run.snapshot('end') or records.read_snapshot(path) returns one"
-    return lambda v: all(getattr(v, name, None) is not None for name in names), remedy
-
-
-SNAPSHOT = snapshot("layer")
 ENTRIES = (
     lambda v: isinstance(v, (list, tuple)) and all(isinstance(one, (list, tuple)) and len(one) == 2 for one in v),
     "give a list of (time, file) pairs",

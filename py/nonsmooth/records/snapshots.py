@@ -13,7 +13,7 @@ from ..system.whole_files import write_arrays
 from . import given
 from .error import RecordsError
 
-__all__ = ["Snapshot", "checked", "read_snapshot", "write_snapshot"]
+__all__ = ["Snapshot", "checked", "given_with", "lacking", "read_snapshot", "read_with", "write_snapshot"]
 
 
 @dataclass
@@ -72,7 +72,10 @@ _KINDS = dict.fromkeys(("layer", "ci", "cj"), np.int64) | dict.fromkeys(
 
 def checked(arrays, source):
     """Check ``arrays`` and make a Snapshot of them; ``source`` names the file in messages."""
-    wrong = lambda what, remedy: RecordsError(f"{source}: {what}; {remedy}")  # noqa: E731
+
+    def wrong(what, remedy):
+        return RecordsError(f"{source}: {what}; {remedy}")
+
     arrays = {name: value for name, value in arrays.items() if value is not None}
     if not any(name in arrays for name in _CONTACTS):
         arrays.update({name: np.zeros(0) for name in _CONTACTS})
@@ -150,6 +153,29 @@ def write_snapshot(path, compact=False, **arrays):
     # else not compressed: a fifth of the room is not worth most of the time, as coordinates hardly shrink
     write_arrays(path, compressed=compact, **told)
     return path
+
+
+def lacking(snapshot, *names):
+    """List of those fields ``names`` that a Snapshot, or what is given for one, has not; not every study has all."""
+    return [name for name in names if getattr(snapshot, name, None) is None]
+
+
+def given_with(*names):
+    """The rule of :func:`..checks.takes` for a Snapshot that has these fields, besides ``x``, ``y`` and ``r``."""
+    told = f" that has {', '.join(names)}" if names else ""
+    remedy = f"give a Snapshot{told}, as run.snapshot('end') or records.read_snapshot(path) returns one"
+    return lambda v: not lacking(v, "x", "y", "r", *names), remedy
+
+
+def read_with(path, whose, *names):
+    """The Snapshot of a file, which has these fields. Raises RecordsError as :func:`read_snapshot`, and where some are
+    not there; ``whose``: who has them, in words, as "a slope".
+    """
+    found = read_snapshot(path)
+    missing = lacking(found, *names)
+    if missing:
+        raise RecordsError(f"{path}: has no {', '.join(missing)}; give snapshots of {whose}")
+    return found
 
 
 def read_snapshot(path):

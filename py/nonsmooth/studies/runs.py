@@ -177,6 +177,8 @@ class SlopeRun(StudyRun):
     """A run of a slope."""
 
     kind, COLUMNS = "slope", slope_columns.COLUMNS
+    #: The columns of ``walls.csv``: {name: Column}.
+    WALL_COLUMNS = slope_columns.WALL_COLUMNS
     TABLES = ("series", "walls", "breaks")
 
     @cached_property

@@ -196,7 +196,7 @@ MUTANTS = (
            "plain:test_records.py::test_what_is_declared_decides_how_a_number_is_written_and_whether_a_cell_is_empty"),
     mutant("snapshot-compact", PY + "records/snapshots.py", "    if compact:\n", "    if False:\n", "a compact snapshot is not in single precision",
            "plain:test_records.py::test_what_a_study_has_not_is_left_out_and_asked_for_by_what_needs_it"),
-    mutant("snapshot-asked", PY + "records/given.py", "getattr(v, name, None) is not None for name in names", "hasattr(v, name) for name in names",
+    mutant("snapshot-asked", PY + "records/snapshots.py", "if getattr(snapshot, name, None) is None", "if not hasattr(snapshot, name)",
            "a figure takes a snapshot without what it draws", "plain:test_records.py::test_what_a_study_has_not_is_left_out_and_asked_for_by_what_needs_it"),
     mutant("run-kind", PY + "studies/runs.py", "if names <= set(kind.COLUMNS):", "if names:", "every run without a section is a biaxial test",
            "plain:test_runs.py::test_the_columns_of_a_series_tell_what_was_run"),

@@ -494,14 +494,7 @@ def test_snakemake_and_an_array_job_do_the_same_runs(swept, tmp_path):
     script = (mine / "Snakefile").read_text()
     assert all(f'"{keys.run_key(one.key, campaign.read(mine).function)}"' in script for one in campaign.read(mine).runs)
     (mine / "Snakefile").write_text(script.replace(sys.executable, PYTHON))  # this process is YADE's
-    done = subprocess.run(
-        [program, "--cores", "2", "--nocolor"],
-        cwd=mine,
-        env=shell.environment(),
-        capture_output=True,
-        text=True,
-        timeout=600,
-    )
+    done = shell.run(program, "--cores", 2, "--nocolor", cwd=mine)
     assert done.returncode == 0, done.stderr[-3000:]
     assert all(told(mine / "runs" / name) == told(out / "runs" / name) for name in names)
     assert all(
@@ -511,14 +504,7 @@ def test_snakemake_and_an_array_job_do_the_same_runs(swept, tmp_path):
     here, there = campaign.collect(out), campaign.collect(mine)
     assert {k: v for k, v in here.items() if "wall" not in k} == {k: v for k, v in there.items() if "wall" not in k}
     # nothing is left to do
-    done = subprocess.run(
-        [program, "--cores", "2", "--nocolor"],
-        cwd=mine,
-        env=shell.environment(),
-        capture_output=True,
-        text=True,
-        timeout=120,
-    )
+    done = shell.run(program, "--cores", 2, "--nocolor", cwd=mine, limit=120)
     assert "Nothing to be done" in done.stderr
 
 

@@ -14,6 +14,7 @@ from yade.nonsmooth.judges import verification
 from yade.nonsmooth.judges.verification import Bench, disk_problems, siconos, siconos_solve
 
 import oracles
+from contact_scenes import without_contacts
 
 DATA = Path(__file__).resolve().parents[2] / "data"
 
@@ -68,23 +69,7 @@ def test_contacts_without_work_carry_nothing(tmp_path):
 
 
 def test_no_contacts(tmp_path):
-    problem = one_contact()
-    none = {
-        name: getattr(problem, name)[:0]
-        for name in (
-            "body",
-            "normal",
-            "lever",
-            "bias",
-            "adhesion",
-            "friction",
-            "rolling_arm",
-            "length",
-            "warm_start",
-            "impulse",
-        )
-    }
-    found = siconos_solve.solve_with_siconos(contact.ContactProblem(**{**vars(problem), **none}), tmp_path, 1e-6, 10)
+    found = siconos_solve.solve_with_siconos(without_contacts(one_contact()), tmp_path, 1e-6, 10)
     assert found.velocity[1] == pytest.approx([-0.5, -1, 0.2]) and found.sweeps == 0
 
 

@@ -7,7 +7,7 @@ from dataclasses import replace
 import numpy as np
 import pytest
 from slope_scenes import SMALL
-from watched_slope import Work, solved, sorted_contacts
+from watched_slope import Watch, Work, solved, sorted_contacts
 from yade import O
 from yade.nonsmooth import experiment, records, section, tables, worlds
 from yade.nonsmooth.studies.slope import slope, slope_packing
@@ -111,20 +111,7 @@ def steps(tmp_path_factory):
             * math.cos(math.radians(chosen.dip))
             * np.array(chosen.normal)
         )
-        counters = np.array(
-            [
-                getattr(solver, name)
-                for name in (
-                    "slidingLoss",
-                    "rollingLoss",
-                    "debondingLoss",
-                    "impactLoss",
-                    "externalWork",
-                    "wallWork",
-                    "correctionEnergy",
-                )
-            ]
-        )
+        counters = np.array([getattr(solver, name) for name in Watch.COUNTERS[:7]])
         found.append((before, after, on_walls, lift, counters, done(before, after)))
     O.reset()
     return found, mass, inertia, places

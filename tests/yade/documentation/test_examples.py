@@ -5,14 +5,13 @@ import json
 import math
 import os
 import re
-import subprocess
 import sys
 from pathlib import Path
 
 import numpy as np
 import pytest
 import shell
-from shell import PREFIX, ROOT, SCRIPTS
+from shell import ROOT, SCRIPTS
 from yade import O, utils
 from yade.nonsmooth import lessons
 from yade.nonsmooth.measure import creep
@@ -273,16 +272,7 @@ def test_an_exercise_refuses_a_value_without_sense(output, script, name, value):
 def test_yade_batch_runs_the_lines_of_a_table(tmp_path):
     table = tmp_path / "short.table"
     table.write_text("description slope seconds\ngentle 15 0.1\nsteep 35 0.1\n")
-    environment = {k: v for k, v in os.environ.items() if k not in ("OMP_NUM_THREADS", "YADE_BATCH")}
-    batch = os.path.join(PREFIX, "bin", "yade-batch")
-    done = subprocess.run(
-        [batch, "-j1", "--log", "short.@.log", str(table), os.path.join(EXAMPLES, "hard_incline.py")],
-        cwd=tmp_path,
-        env=environment,
-        text=True,
-        capture_output=True,
-        timeout=300,
-    )
+    done = shell.batch(table, os.path.join(EXAMPLES, "hard_incline.py"), tmp_path, "short.@.log")
     assert done.returncode == 0, done.stdout + done.stderr
     logs = [path.read_text(errors="replace") for path in sorted(tmp_path.glob("short.*.log"))]
     assert len(logs) == 2

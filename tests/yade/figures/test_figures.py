@@ -13,6 +13,7 @@ import synthetic_slope as synthetic
 
 records, figures = (synthetic.load(name) for name in ("records", "figures"))
 style = synthetic.load("figures.style")
+COLUMNS = synthetic.load("studies.slope.columns").COLUMNS
 ground_of, UserError, RecordsError = (
     synthetic.load("measure.ground").ground_of,
     synthetic.load("errors").UserError,
@@ -23,7 +24,7 @@ SECTION = synthetic.Section()
 
 @pytest.fixture(scope="module")
 def series():
-    return synthetic.series(records.COLUMNS, rows=50)
+    return synthetic.series(COLUMNS, rows=50)
 
 
 def test_a_figure_is_returned_or_written(tmp_path, series):

@@ -244,7 +244,7 @@ def test_a_film_of_a_test_has_the_colours_of_rotations_and_its_walls(monkeypatch
     with pytest.raises(records.RecordsError, match="no frames"):
         biaxial.film([], "", tmp_path / "b.mp4")
     records.write_snapshot(tmp_path / "no.npz", time_s=0.0, step=0, x=[1], y=[1], r=[1])
-    with pytest.raises(records.RecordsError, match="no.npz: has no angle or no walls; give frames of a biaxial test"):
+    with pytest.raises(records.RecordsError, match="no.npz: has no angle, walls; give snapshots of a biaxial test"):
         biaxial.film([tmp_path / "no.npz"], "", tmp_path / "b.mp4")
 
 

@@ -8,13 +8,13 @@ import pytest
 import drawn
 import synthetic_slope as synthetic
 
-figures, style, scale, convergence, energy = (
+figures, style, scale, refinement, energy = (
     synthetic.load(name)
     for name in (
         "figures",
         "figures.style",
         "judges.benchmark.scale_figure",
-        "judges.verification.convergence",
+        "judges.verification.refinement",
         "measure.energy",
     )
 )
@@ -221,10 +221,10 @@ def test_cost_by_size():
 
 
 def test_a_sweep_of_time_steps_shows_seeds_mean_and_the_default(tmp_path):
-    swept = convergence.Sweep(
+    swept = refinement.Sweep(
         "time step", "s", 0.01, {0.005: {1: 100.0, 2: 200.0}, 0.01: {1: 110.0, 2: 210.0}, 0.02: {1: 130.0, 2: 240.0}}
     )
-    fig = convergence.sheet(
+    fig = refinement.sheet(
         types.SimpleNamespace(folder=tmp_path), "s.png", "Strength", [(swept, 1e-3, "strength [kPa]")]
     )
     assert (tmp_path / "s.png").stat().st_size > 0 and fig._suptitle.get_text() == "Strength"
@@ -245,7 +245,7 @@ def test_a_sweep_of_time_steps_shows_seeds_mean_and_the_default(tmp_path):
     assert [np.ptp(s[:, 1]) / 2 for s in whiskers.get_segments()] == pytest.approx(
         [0.05, 0.05, 0.055]
     ) and ax.get_ylim() == pytest.approx((0, 1.2 * 0.24))
-    relative = convergence.sheet(
+    relative = refinement.sheet(
         types.SimpleNamespace(folder=tmp_path), "s.png", "Strength", [(swept, 1e-3, "change [%]")] * 2, relative=True
     )
     for ax in relative.axes:
@@ -261,12 +261,12 @@ def test_a_sweep_of_time_steps_shows_seeds_mean_and_the_default(tmp_path):
 def test_changes_are_over_the_mean_of_the_reference_and_of_the_same_seeds():
     """A slope that does not stand counts with the 0 m of water that it bears."""
     values = {1.0: {1: 10.0, 2: 0.0}, 10.0: {1: 13.0, 2: 4.0, 3: 99.0}, 20.0: {1: 14.0, 2: 5.0}}
-    swept = convergence.Sweep("tolerance", "-", 1.0, values)
+    swept = refinement.Sweep("tolerance", "-", 1.0, values)
     # 3 and 4 m over a mean of 5 m: 0.7, and half their difference as its standard error
     assert swept.change(10.0, 1.0) == pytest.approx((0.7, 0.1))
     # 20 is coarser than ten times the default
     assert swept.largest_step() == pytest.approx((0.7, 0.1))
-    steep = convergence.Sweep("tolerance", "-", 2.0, values | {20.0: {1: 40.0, 2: 40.0}})
+    steep = refinement.Sweep("tolerance", "-", 2.0, values | {20.0: {1: 40.0, 2: 40.0}})
     assert steep.largest_step() == pytest.approx((((40 - 13) + (40 - 4)) / 17, abs(36 - 27) / 17))
 
 

@@ -296,7 +296,7 @@ def circles(entry, seeds, law):
     unit, found = entry.material.tensile_strength, []
     for test in entry.tests(seeds):
         share, phi = law(test.shape.seed)
-        made = strength.Envelope(share * unit, phi, ())
+        made = strength.MohrEnvelope(share * unit, phi, ())
         found.append(
             {
                 "seed": test.shape.seed,

@@ -224,7 +224,7 @@ def test_all_losses_are_columns():
     assert (
         set(records.LOSSES)
         == {f"energy_{name}_J" for name in ("sliding", "rolling", "impact", "bonds")}
-        <= set(records.COLUMNS)
+        <= set(synthetic.load("studies.slope.columns").COLUMNS)
     )
 
 
@@ -257,12 +257,9 @@ def test_what_is_declared_decides_how_a_number_is_written_and_whether_a_cell_is_
     assert (tmp_path / "s.csv").read_text() == 'step,name,x,n\n1,"a,b",2.0,\n'
 
 
-def test_the_slopes_columns_are_found_where_they_were():
-    slope = synthetic.load("studies.slope.columns")
-    assert records.COLUMNS is slope.COLUMNS is records.columns.COLUMNS and records.WALL_COLUMNS is slope.WALL_COLUMNS
-    assert (records.COLUMNS["step"].integer, records.COLUMNS["time_s"].description) == (True, "simulated time")
-    with pytest.raises(AttributeError, match="no attribute 'HEAP_COLUMNS'"):
-        records.HEAP_COLUMNS  # noqa: B018
+def test_a_column_says_what_it_is():
+    columns = synthetic.load("studies.slope.columns").COLUMNS
+    assert (columns["step"].integer, columns["time_s"].description) == (True, "simulated time")
 
 
 # --- snapshots ---------------------------------------------------------------------------------------------------
@@ -319,7 +316,7 @@ def test_what_a_study_has_not_is_left_out_and_asked_for_by_what_needs_it(tmp_pat
         assert np.array_equal(found.x, np.float32(disks["x"]) if compact else disks["x"])
     with pytest.raises(RecordsError, match=r"walls has shape \(2,\); give an axis"):
         records.write_snapshot(tmp_path / "b.npz", **{**disks, "walls": [0.0, 1.0]})
-    rule, remedy = synthetic.load("records.given").snapshot("layer", "wet")
+    rule, remedy = synthetic.load("records.snapshots").given_with("layer", "wet")
     assert not rule(found) and "a Snapshot that has layer, wet" in remedy
     assert rule(records.read_snapshot(records.write_snapshot(tmp_path / "c.npz", **disks, layer=[0, 1], wet=[1, 0])))
 

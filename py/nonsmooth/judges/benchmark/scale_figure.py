@@ -12,7 +12,10 @@ def cost_by_size(sizes, path=None, pdf=False):
     disks.
     """
     disks = [s["disks"] for s in sizes]
-    of_sweep = lambda n: [s["sweep_ns_per_contact"][n]["median"] for s in sizes]  # noqa: E731
+
+    def of_sweep(n):
+        return [s["sweep_ns_per_contact"][n]["median"] for s in sizes]
+
     threads = sorted(sizes[0]["sweep_ns_per_contact"], key=int)
     panels = (
         ("A step", "time [ms]", {"": [s["step_ms"]["median"] for s in sizes]}, True),

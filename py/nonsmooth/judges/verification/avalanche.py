@@ -12,7 +12,8 @@ from ... import figures, records
 from ...measure.energy import dissipated, turned_over
 from . import Claims, Findings, check
 from .cases import folder_of, run_cases
-from .convergence import QUICK, STEP, TOLERANCE, TOLERANCE_MOVING, slope
+from .slope_convergence import QUICK, TOLERANCE_MOVING, slope
+from .strength_convergence import STEP, TOLERANCE
 
 SUBJECT = "A whole avalanche"
 DISKS, SEEDS = 3000, (1, 2, 3, 4, 5)
@@ -95,9 +96,10 @@ def whole_avalanche(bench):
         else (DISKS, SEEDS, STEP, TOLERANCE, TOLERANCE_MOVING)
     )
     looser = 5 * tight
-    case = lambda seed, moving, **more: dict(
-        disks=disks, seed=seed, time_step=step, tolerance=tolerance, tolerance_moving=moving, **more
-    )  # noqa: E731
+
+    def case(seed, moving, **more):
+        return dict(disks=disks, seed=seed, time_step=step, tolerance=tolerance, tolerance_moving=moving, **more)
+
     kinds = {
         f"tolerance in motion {tight:g}": [case(seed, tight) for seed in seeds],
         f"tolerance in motion {looser:g}": [case(seed, looser) for seed in seeds],
@@ -111,7 +113,10 @@ def whole_avalanche(bench):
         records.since_settled(records.read_series(folder_of(bench, slope, c) / "series.csv"))
         for c in cases[: len(seeds)]
     ]
-    worst = lambda key: max(f[key] for f in ours)  # noqa: E731
+
+    def worst(key):
+        return max(f[key] for f in ours)
+
     claims = Claims()
     why = "the project's limit; larger errors could hide a loss that is not accounted for"
     claims.at_most(
@@ -141,9 +146,10 @@ def whole_avalanche(bench):
     figures.energy(series[0], bench.folder / "energy.png", times=ours[0]["times_s"], limit=0.01)
     figures.solver(series[0], bench.folder / "solver.png", times=ours[0]["times_s"])
     header = ["", "unit", "mean", "standard deviation", f"seeds {', '.join(map(str, seeds))}"]
-    row = lambda of_kind, key, name, unit, scale: _row(
-        name, unit, [scale * f[key] if f[key] is not None else None for f in of_kind]
-    )  # noqa: E731
+
+    def row(of_kind, key, name, unit, scale):
+        return _row(name, unit, [scale * f[key] if f[key] is not None else None for f in of_kind])
+
     tables = [
         (f"About {found[0]['disks']:,} disks, {kind}", header, [row(of_kind, *quantity) for quantity in QUANTITIES])
         for kind, of_kind in runs.items()

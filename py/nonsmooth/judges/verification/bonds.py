@@ -78,7 +78,13 @@ def cases(adhesion, friction, rolling):
     threshold.
     """
     pull = -0.5 * adhesion
-    shear, torque = (lambda n: friction * (adhesion + n)), (lambda n: rolling * LENGTH * (adhesion + n))
+
+    def shear(n):
+        return friction * (adhesion + n)
+
+    def torque(n):
+        return rolling * LENGTH * (adhesion + n)
+
     return {
         "tension": ("tension", JUST, lambda x: dict(normal=-adhesion * x)),
         "shear": ("shear", JUST, lambda x: dict(shear=shear(0) * x)),

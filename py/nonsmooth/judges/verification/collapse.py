@@ -120,7 +120,10 @@ def collapse_of_rounded_places(bench):
         ("h", "h, no overlaps"),
     )
     for a, b in pairs:
-        of = lambda s, kind: (profiles[s, *kinds[kind]]["x"], profiles[s, *kinds[kind]]["height"])  # noqa: E731
+
+        def of(s, kind):
+            return (profiles[s, *kinds[kind]]["x"], profiles[s, *kinds[kind]]["height"])
+
         share[a, b] = [area_between(of(s, a), of(s, b)) for s in seeds]
         rows.append([f"{a} against {b}", *(f"{100 * v:.2f}" for v in share[a, b])])
     claims = Claims()

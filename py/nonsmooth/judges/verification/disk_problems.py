@@ -122,7 +122,10 @@ def random_cluster(seed, disks, *, rolling=False, cohesion=False) -> ContactProb
     problem = of_disks(x, y, r, [(0, 0, 0, 1)], inverse_mass=inverse_mass, free_velocity=velocity, reach=0.03)
     contacts = len(problem.length)
     problem.friction[:] = dice.uniform(0.1, 0.5, contacts)
-    some = lambda: dice.uniform(0, 1, contacts) * (dice.random(contacts) < 2 / 3)  # noqa: E731
+
+    def some():
+        return dice.uniform(0, 1, contacts) * (dice.random(contacts) < 2 / 3)
+
     problem.rolling_arm[:] = 0.2 * problem.length * some() if rolling else 0
     problem.adhesion[:] = mass.mean() * some() if cohesion else 0  # the impulse that stops a disk of 1 m/s
     return problem

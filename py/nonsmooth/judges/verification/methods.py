@@ -192,7 +192,10 @@ def sweeps_by_thickness(bench):
             ]
         )
     layers, (fast, plain) = np.array(list(found)), np.array(list(found.values()), float).T
-    slope = lambda counts: float(np.polyfit(np.log(layers), np.log(counts), 1)[0])  # noqa: E731
+
+    def slope(counts):
+        return float(np.polyfit(np.log(layers), np.log(counts), 1)[0])
+
     claims = Claims()
     why = "looked at every 5 of 15 sweeps in the thinnest"
     claims.near("accelerated: power of the thickness with which sweeps grow", slope(fast), 1, why, absolute=0.3)

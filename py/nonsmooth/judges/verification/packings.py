@@ -140,7 +140,10 @@ def angle_of(stresses, begin):
     """
     rows = np.array(stresses)[int(begin * len(stresses)) :]
     major, minor = rows[:, :2].mean(axis=1), rows[:, 2:].mean(axis=1)
-    sine = lambda a, b: (a.mean() - b.mean()) / (a.mean() + b.mean())  # noqa: E731
+
+    def sine(a, b):
+        return (a.mean() - b.mean()) / (a.mean() + b.mean())
+
     blocks = [math.degrees(math.asin(sine(a, b))) for a, b in zip(np.array_split(major, 10), np.array_split(minor, 10))]
     return math.degrees(math.asin(sine(major, minor))), standard_error(blocks)
 
@@ -315,7 +318,9 @@ def below_mean(share, least):
     def norm(a):
         return (1 - least ** (1 - a)) / (1 - a) if abs(1 - a) > 1e-9 else -math.log(least)
 
-    loss = lambda a: a * logs + math.log(norm(a))  # noqa: E731
+    def loss(a):
+        return a * logs + math.log(norm(a))
+
     best = minimize_scalar(loss, bounds=(-2, 0.999), method="bounded").x
     bend = (loss(best + 1e-3) - 2 * loss(best) + loss(best - 1e-3)) / 1e-6
     return float(best), float(1 / math.sqrt(bend * len(inside)))
@@ -360,7 +365,10 @@ def force_network(bench):
         # the looks at one sheared sample are one sample
         shares = [np.concatenate([np.array(look) / np.mean(look) for look in f["force"]]) for f in runs]
         results[name] = fit = _fits(shares)
-        mean = lambda key: np.mean(np.concatenate([f[key] for f in runs]))  # noqa: E731
+
+        def mean(key):
+            return np.mean(np.concatenate([f[key] for f in runs]))
+
         rows.append(
             [
                 name,

@@ -37,9 +37,12 @@ class Sweeps:
         self.i, self.j = problem.body.T
         (nx, ny), lever = problem.normal.T, problem.lever.T
         one, none = np.ones(c), np.zeros(c)
-        side = lambda n, t: np.array(
-            [np.column_stack([nx, ny, n]), np.column_stack([-ny, nx, t]), np.column_stack([none, none, one])]
-        )  # noqa: E731
+
+        def side(n, t):
+            return np.array(
+                [np.column_stack([nx, ny, n]), np.column_stack([-ny, nx, t]), np.column_stack([none, none, one])]
+            )
+
         self.rows = np.array([-side(lever[0], lever[1]), side(lever[2], lever[3])])
         mass = problem.inverse_mass
         self.pushes = np.array([self.rows[0] * mass[self.i], self.rows[1] * mass[self.j]])

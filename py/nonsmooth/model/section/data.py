@@ -19,12 +19,13 @@ def plain(section) -> dict:
     """The keys and values of a section file that gives this Section; `section.of` takes them too. A similar section
     (`like`) loses where it came from.
     """
-    disks = lambda d: {
-        "diameter": [d.d_min, d.d_max],
-        "distribution": d.distribution,
-        "packing_fraction": d.packing_fraction,
-    }  # noqa: E731
-    points = lambda item: [list(map(float, p)) for p in item.vertices]  # noqa: E731
+
+    def disks(d):
+        return {"diameter": [d.d_min, d.d_max], "distribution": d.distribution, "packing_fraction": d.packing_fraction}
+
+    def points(item):
+        return [list(map(float, p)) for p in item.vertices]
+
     water, stages = section.water, section.stages
     data = {
         "name": section.name,

@@ -70,7 +70,10 @@ def mirrored(section: Section) -> Section:
 
 def _mirrored(data):
     """Plain data of a section, mirrored."""
-    flipped = lambda points: [[0.0 - x, y] for x, y in points]  # noqa: E731
+
+    def flipped(points):
+        return [[0.0 - x, y] for x, y in points]
+
     data = copy.deepcopy(data)
     data["walls"] = [wall | {"vertices": flipped(reversed(wall["vertices"]))} for wall in reversed(data["walls"])]
     data["layers"] = [layer | {"vertices": flipped(reversed(layer["vertices"]))} for layer in data["layers"]]

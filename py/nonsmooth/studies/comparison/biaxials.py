@@ -16,7 +16,7 @@ from ...model import materials
 from ...system import cache
 from ...world import worlds
 from ..laboratory import biaxial, pressing
-from .cases import Case, ComparisonError
+from .cases import Case, CaseError
 from .outcomes import Cost, Outcome, Quantity
 from .slopes import forces_of
 
@@ -53,12 +53,12 @@ QUANTITIES = (
 def test_of(case: Case) -> biaxial.BiaxialTest:
     """The laboratory's test of a case; for a hard run with its step and tolerance.
 
-    Raises ComparisonError for a strain that gives no strengths, SectionError for a material that cannot be used.
+    Raises CaseError for a strain that gives no strengths, SectionError for a material that cannot be used.
     """
     o, standard = case.options, {f.name: f.default for f in dataclasses.fields(biaxial.BiaxialTest)}
     strain = o.get("strain", STRAIN)
     if not strength.SHORTEST <= strain < 1:
-        raise ComparisonError(
+        raise CaseError(
             f"--strain {strain:g}: give the axial strain at the end, from {strength.SHORTEST:g}, which has a peak and a plateau, to less than 1"
         )
     # pressed: soft contacts then begin without the work of bonds that were bent by the pressure
@@ -113,10 +113,10 @@ def run(folder, **plain):
 def measure(case: Case, folder, found) -> Outcome:
     """What the records of a finished test say; tests are compared along their strain.
 
-    Raises ComparisonError for a test that was kept without the wall time of its steps.
+    Raises CaseError for a test that was kept without the wall time of its steps.
     """
     if "wall_steps_s" not in found:  # as of versions that counted rows and snapshots of hard tests as well
-        raise ComparisonError(
+        raise CaseError(
             f"{folder}: its result.json has no wall_steps_s, the wall time of steps alone; remove the folder and go on with --resume"
         )
     test = test_of(case)

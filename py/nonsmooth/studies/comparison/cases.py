@@ -22,13 +22,13 @@ from dataclasses import dataclass
 
 from ...errors import UserError
 
-__all__ = ["Case", "ComparisonError", "ComparisonPlan", "check_soft", "moduli_of", "modulus_label", "plan", "work_of"]
+__all__ = ["Case", "CaseError", "ComparisonPlan", "check_soft", "moduli_of", "modulus_label", "plan", "work_of"]
 
 #: Time step and tolerance of hard runs, as multiples of the section's, coarse to fine; the last is the reference.
 HARD_NUMERICS = ((2.0, 10.0), (2.0, 1.0), (1.0, 10.0), (0.5, 0.5))
 
 
-class ComparisonError(UserError, RuntimeError):
+class CaseError(UserError, RuntimeError):
     """A comparison that cannot be made; the message says why and what helps."""
 
 
@@ -41,31 +41,29 @@ def modulus_label(modulus):
 
 
 def moduli_of(stiffnesses, least=1):
-    """Young's moduli [Pa], sorted, each once. Raises ComparisonError for one that is no number above 0, and for fewer
+    """Young's moduli [Pa], sorted, each once. Raises CaseError for one that is no number above 0, and for fewer
     than ``least``.
     """
     chosen = sorted(set(map(float, stiffnesses)))
     told = ", ".join(f"{e:g}" for e in chosen) or "nothing"
     if not all(0 < e < math.inf for e in chosen):
-        raise ComparisonError(f"--stiffness {told}: give Young's moduli above 0 [Pa]")
+        raise CaseError(f"--stiffness {told}: give Young's moduli above 0 [Pa]")
     if len(chosen) < least:
-        raise ComparisonError(
+        raise CaseError(
             f"--stiffness {told}: give {least} Young's moduli or more, or nothing can be said of their effect"
         )
     return chosen
 
 
 def check_soft(damping, damping_moving, step_share):
-    """Raises ComparisonError for dampings (``damping_moving`` may be None) and a share of the stable step that soft
+    """Raises CaseError for dampings (``damping_moving`` may be None) and a share of the stable step that soft
     runs cannot have.
     """
     for key, value in (("--damping", damping), ("--damping-moving", damping_moving)):
         if value is not None and not 0 <= value < 1:
-            raise ComparisonError(f"{key} {value:g}: give a number from 0 to less than 1")
+            raise CaseError(f"{key} {value:g}: give a number from 0 to less than 1")
     if not 0 < step_share <= 1:
-        raise ComparisonError(
-            f"--step-share {step_share:g}: give a number above 0, and no more than 1, the stability limit"
-        )
+        raise CaseError(f"--step-share {step_share:g}: give a number above 0, and no more than 1, the stability limit")
 
 
 @dataclass(frozen=True)
@@ -162,16 +160,16 @@ def plan(
 
     ``stiffnesses``: Young's moduli [Pa]; ``ensemble``: the one of the ensemble (default: the upper of the middle ones);
     ``numerics``: pairs as HARD_NUMERICS; ``fragile``: of the soft bonds; ``bonds_run``: with one soft run of the other
-    kind of bonds. Raises ComparisonError for lists and numbers that cannot be used.
+    kind of bonds. Raises CaseError for lists and numbers that cannot be used.
     """
     chosen = moduli_of(stiffnesses, 2)
     if not seeds or len(set(seeds)) < len(seeds) or min(seeds) < 0:
-        raise ComparisonError(
+        raise CaseError(
             f"--seeds {' '.join(map(str, seeds)) or 'nothing'}: give whole numbers from 0, each once, and one at least"
         )
     check_soft(damping, damping_moving, step_share)
     if ensemble is not None and not 0 < ensemble < math.inf:
-        raise ComparisonError(f"--ensemble-stiffness {ensemble:g}: give a Young's modulus above 0 [Pa]")
+        raise CaseError(f"--ensemble-stiffness {ensemble:g}: give a Young's modulus above 0 [Pa]")
     middle = float(ensemble) if ensemble is not None else chosen[len(chosen) // 2]
     if middle not in chosen:
         chosen = sorted((*chosen, middle))

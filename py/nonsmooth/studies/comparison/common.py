@@ -102,7 +102,10 @@ def damping_section(folder, plan, outcomes, clock):
         (f"soft, damping {rest:g} throughout", figures.SHADES[4], [throughout.curves]),
     ]
     path = figures.courses(groups, WAYS, ("abscissa", clock, 1.0), folder / "damping.png")
-    part = lambda e: f"{(1 - e) / (1 + e):.2f} for λ = {e:g}"  # noqa: E731
+
+    def part(e):
+        return f"{(1 - e) / (1 + e):.2f} for λ = {e:g}"
+
     text = [
         "NewtonIntegrator's damping λ takes the part λ of every force that speeds a disk up, weight included, and adds it to forces that brake. "
         "A mass that slides down one slope "

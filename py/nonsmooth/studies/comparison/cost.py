@@ -24,7 +24,7 @@ from ...running.kept_runs import Progress, keep, kept
 from ...system import keys, machine
 from ..slope.measuring import MeasuringCourse
 from . import losses, precision, slopes
-from .cases import Case, ComparisonError, check_soft, moduli_of
+from .cases import Case, CaseError, check_soft, moduli_of
 from .summary import ROCK_STIFFNESS, clean
 
 __all__ = ["DISKS", "STATES", "STIFFNESSES", "measure_hard", "measure_soft", "run", "summarise"]
@@ -206,7 +206,7 @@ def run(
     """Makes the states that are missing and measures both worlds, one process after the other on ``threads``; returns
     :func:`summarise` of it.
 
-    ``stiffnesses``: Young's moduli [Pa]; ``steps``: that are timed, :data:`LOOKS` or more. Raises ComparisonError
+    ``stiffnesses``: Young's moduli [Pa]; ``steps``: that are timed, :data:`LOOKS` or more. Raises CaseError
     before anything runs for numbers that cannot be used, and benchmark.states.BenchmarkError where a measurement fails.
     """
     from ..slope import states
@@ -215,7 +215,7 @@ def run(
     check_soft(damping, damping_moving, step_share)
     for key, value, least in (("--disks", disks, 1), ("--threads", threads, 1), ("--steps", steps, LOOKS)):
         if value < least:
-            raise ComparisonError(f"{key} {value}: give {least} or more")
+            raise CaseError(f"{key} {value}: give {least} or more")
     bonds, lost = losses.of_case(
         slopes, Case("soft", source, disks, 1, step_share, stiffness=stiffnesses[0], damping=damping, model=model)
     )

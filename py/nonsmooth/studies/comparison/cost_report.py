@@ -13,6 +13,10 @@ from .course import lacks
 __all__ = ["write"]
 
 STATE_NAMES = {"moving": "during the avalanche", "rest": "at rest"}
+ONE_STIFFNESS = (
+    "One stiffness gives no exponent, of overlaps or of cost, so what soft contacts of equal overlap take is not known; "
+    "give --stiffness two values or more."
+)
 
 
 def write(out, told):
@@ -50,16 +54,17 @@ def write(out, told):
         "state | contacts | time step | wall time a step | wall time a simulated second | mean overlap | "
         "largest overlap | over hard | contacts that touch or carry force | mean speed"
     ).split(" | ")
+    powers = [
+        f"{STATE_NAMES[state]} {number(s['overlap_power'], digits=2)} and {number(s['rate_power'], digits=2)}"
+        for state, s in told["states"].items()
+        if s["overlap_power"]
+    ]
     section = report.ReportSection(
         "Cost and overlap",
         [
-            "Overlaps fall as a power of the stiffness, and cost grows as another: "
-            + "; ".join(
-                f"{STATE_NAMES[state]} {number(s['overlap_power'], digits=2)} and {number(s['rate_power'], digits=2)}"
-                for state, s in told["states"].items()
-                if s["overlap_power"]
-            )
-            + "."
+            "Overlaps fall as a power of the stiffness, and cost grows as another: " + "; ".join(powers) + "."
+            if powers
+            else ONE_STIFFNESS
         ],
         [
             (
@@ -95,6 +100,17 @@ def write(out, told):
 def _sentence(state, s):
     """What was found of one state, in words."""
     hard, stiffest, name = s["hard"], s["soft"][-1], STATE_NAMES[state]
+    seconds = number(hard["rate"], "s")
+    rigid = f"{name[0].upper()}{name[1:]} a second of simulation takes {seconds} of wall time with rigid disks"
+    rock, end = number(s["rock_stiffness"]), " (extrapolated)." if s["rock_stiffness_extrapolated"] else "."
+    if len({one["stiffness_Pa"] for one in s["soft"]}) < 2:
+        soft, rigids = (number(one["overlap_mean_rel"], digits=2) for one in (stiffest, hard))
+        return (
+            f"{rigid}, and {number(stiffest['rate'] / hard['rate'])} times as long with soft contacts of "
+            f"{modulus_label(stiffest['stiffness_Pa'])}, whose mean overlap is {soft} of the mean diameter, that of "
+            f"rigid ones {rigids}. {ONE_STIFFNESS} A rock's stiffness, 10 GPa, would take {rock} times as long as "
+            f"rigid disks{end}"
+        )
     beyond = ""
     if s["equal_overlap_extrapolated"]:
         beyond = (
@@ -102,10 +118,9 @@ def _sentence(state, s):
             f"{number(stiffest['overlap_mean_rel'], digits=2)})"
         )
     return (
-        f"{name[0].upper()}{name[1:]} a second of simulation takes {number(hard['rate'], 's')} of wall time with rigid disks. Soft contacts of equal "
+        f"{rigid}. Soft contacts of equal "
         f"mean overlap, {number(hard['overlap_mean_rel'], digits=2)} of the mean diameter, need {modulus_label(s['equal_overlap_stiffness_Pa'])} and "
         f"{number(s['equal_overlap'])} times as long{beyond}; at equal largest overlap, {number(hard['overlap_worst_rel'], digits=2)}, it is "
         f"{number(s['equal_worst_overlap'])} times ({modulus_label(s['equal_worst_overlap_stiffness_Pa'])}"
-        f"{', extrapolated' if s['equal_worst_overlap_extrapolated'] else ''}), and at a rock's stiffness, 10 GPa, it is {number(s['rock_stiffness'])} times"
-        + (" (extrapolated)." if s["rock_stiffness_extrapolated"] else ".")
+        f"{', extrapolated' if s['equal_worst_overlap_extrapolated'] else ''}), and at a rock's stiffness, 10 GPa, it is {rock} times{end}"
     )

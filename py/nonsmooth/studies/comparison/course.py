@@ -21,7 +21,7 @@ from . import (
     slopes,
     summary,
 )
-from .cases import HARD_NUMERICS, ComparisonError, plan
+from .cases import HARD_NUMERICS, CaseError, plan
 
 __all__ = ["PARTS", "SCENARIOS", "answered", "check_stiffnesses", "compare", "lacks"]
 
@@ -56,16 +56,16 @@ def compare(
     and the answered questions.
 
     ``scenario``: a key of SCENARIOS; arguments that are None take the scenario's own; ``without``: names from PARTS
-    that are left out; ``plan_options``: of cases.plan. Raises ComparisonError (or the scenario's own UserError) before
-    anything runs for arguments that cannot be used, and ComparisonError after all runs have ended where one failed.
+    that are left out; ``plan_options``: of cases.plan. Raises CaseError (or the scenario's own UserError) before
+    anything runs for arguments that cannot be used, and CaseError after all runs have ended where one failed.
     """
     began, out = time.monotonic(), Path(out)
     experiment, pages = SCENARIOS[scenario]
     disks = experiment.DISKS if disks is None else disks
     if disks < 1:
-        raise ComparisonError(f"--disks {disks}: give a number above 0")
+        raise CaseError(f"--disks {disks}: give a number above 0")
     if threads < 1:
-        raise ComparisonError(f"--threads {threads}: give a number above 0")
+        raise CaseError(f"--threads {threads}: give a number above 0")
     if not getattr(experiment, "MOVING", True):
         plan_options["damping_moving"] = None
     if stiffnesses is None and plan_options.get("ensemble") is None:
@@ -133,13 +133,13 @@ def answered(folder, **arguments):
 
 
 def check_stiffnesses(experiment, sweep):
-    """Raises ComparisonError for soft cases of ``sweep`` that would refuse once they run, since their springs are too
+    """Raises CaseError for soft cases of ``sweep`` that would refuse once they run, since their springs are too
     weak for the weight on them.
     """
     least = experiment.least_stiffness(sweep[0]) if hasattr(experiment, "least_stiffness") else 0.0
     weak, strong = ([f"{c.stiffness:g}" for c in sweep if (c.stiffness < least) == below] for below in (True, False))
     if weak:
-        raise ComparisonError(
+        raise CaseError(
             f"--stiffness {','.join(weak)}: too weak for the weight of this {experiment.NAME}; its disks at the bottom would overlap more than "
             f"is let through; give {1.05 * least:.2g} Pa or more"
             + (f", as --stiffness {','.join(strong)}" if len(strong) > 1 else "")

@@ -15,7 +15,7 @@ from ...commands import arguments
 from ...world.soft import MODELS
 from ..laboratory.biaxial_test import BiaxialTest
 from . import cost, course
-from .cases import ComparisonError
+from .cases import CaseError
 
 __all__ = ["APPLIES", "DEFAULTS", "read", "scenario_options"]
 
@@ -158,18 +158,16 @@ def _parser(about):
 def read(about, words=None):
     """The arguments (``words``, default: the command's) with the defaults put in; those that do not apply are None.
 
-    Raises ComparisonError for options that do not apply and for numbers that cannot be used.
+    Raises CaseError for options that do not apply and for numbers that cannot be used.
     """
     args = _parser(about).parse_args(words)
     if args.cost and args.scenario != "slope":
-        raise ComparisonError(
-            f"--cost with --scenario {args.scenario}: it is measured on the slope; leave --scenario out"
-        )
+        raise CaseError(f"--cost with --scenario {args.scenario}: it is measured on the slope; leave --scenario out")
     subject = "cost" if args.cost else args.scenario
     every = dict.fromkeys(name for names in APPLIES.values() for name in names)
     idle = [name for name in every if getattr(args, name) is not None and name not in APPLIES[subject]]
     if idle:
-        raise ComparisonError(
+        raise CaseError(
             f"{', '.join(f'{_flag(n)} {_plain(getattr(args, n))}' for n in idle)} with {'--cost' if args.cost else '--scenario ' + subject}: "
             f"that does not apply there; leave it out, or take {', '.join(map(_flag, APPLIES[subject]))}"
         )
@@ -177,14 +175,14 @@ def read(about, words=None):
         values = getattr(args, name)
         for value in values if isinstance(values, list) else [values]:
             if isinstance(value, float) and not math.isfinite(value):
-                raise ComparisonError(f"{_flag(name)} {_plain(values)}: give a finite number")
+                raise CaseError(f"{_flag(name)} {_plain(values)}: give a finite number")
     for name, least in (("disks", 1), ("threads", 1), ("steps", cost.LOOKS)):
         value = getattr(args, name)
         if value is not None and value < least:
-            raise ComparisonError(f"{_flag(name)} {value}: give {least} or more")
+            raise CaseError(f"{_flag(name)} {value}: give {least} or more")
     if args.bonds is not None and args.model not in (None, "cohesion_moment"):
         has = "breaks bonds at once and has no others" if args.model == "jcfpm" else "has no bonds"
-        raise ComparisonError(
+        raise CaseError(
             f"--bonds {args.bonds} with --model {args.model}: that model {has}; leave --bonds out, or take --model cohesion_moment"
         )
     for name in APPLIES[subject]:

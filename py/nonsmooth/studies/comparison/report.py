@@ -71,7 +71,10 @@ def common_sections(out, scenario, plan, outcomes, summary):
 def _quantities(summary):
     rows = []
     for q in summary["quantities"].values():
-        cell = lambda w: spread(q[w]["mean"], q[w]["sd"], q["unit"])  # noqa: E731
+
+        def cell(w):
+            return spread(q[w]["mean"], q[w]["sd"], q["unit"])
+
         within = {None: "not told", True: "yes", False: "no"}[q["agree"]]
         off, half = number(q["difference"], q["unit"]), q["difference_95"]
         confidence = "–" if half is None else "± " + number(half, q["unit"])
@@ -106,9 +109,15 @@ def _overlaps(folder, scenario, plan, outcomes, summary):
 
 def _work(folder, scenario, summary):
     work = summary["work_precision"]
-    short = lambda label: label.removeprefix("soft, ").removeprefix("hard, ")  # noqa: E731
+
+    def short(label):
+        return label.removeprefix("soft, ").removeprefix("hard, ")
+
     worlds = ("hard", "soft", "soft_aside")
-    points = lambda kind, world: [(p["wall_s"], p["error"], short(p["label"])) for p in work[kind][world]]  # noqa: E731
+
+    def points(kind, world):
+        return [(p["wall_s"], p["error"], short(p["label"])) for p in work[kind][world]]
+
     titles = {"against_hard": "against the finest hard run", "against_own": "against the finest run of its own world"}
     panels = [(title, *(points(kind, world) for world in worlds)) for kind, title in titles.items()]
     path = figures.work_precision(panels, work["scatter"], folder / "work_precision.png")

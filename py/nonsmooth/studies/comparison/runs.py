@@ -9,7 +9,7 @@ from pathlib import Path
 
 from ...running import processes, side_by_side
 from ...system import keys
-from .cases import ComparisonError, work_of
+from .cases import CaseError, work_of
 
 __all__ = ["folder_of", "run"]
 
@@ -24,7 +24,7 @@ def run(function, cases, out, threads, resume=False, progress=lambda share, doin
     ``process_wall_s``: wall time of its process [s].
 
     ``function``: of a module of this package, see processes.call. ``resume``: keep what has finished. ``progress``:
-    called with the share done and what is being done. Raises ComparisonError with the first failure after all others
+    called with the share done and what is being done. Raises CaseError with the first failure after all others
     have ended.
     """
     name = processes.named(function)
@@ -43,7 +43,7 @@ def run(function, cases, out, threads, resume=False, progress=lambda share, doin
         made,
         threads,
         resume,
-        ComparisonError,
+        CaseError,
         "; finished runs are kept, go on with --resume",
         lambda share, ended: progress(share, f"{ended} of {len(made)} runs done"),
     )

@@ -14,7 +14,7 @@ from ...measure import characteristic_times
 from ...measure.surface import deposit_profile
 from ...model import scales, section
 from ...running.kept_runs import Progress
-from .cases import Case, ComparisonError
+from .cases import Case, CaseError
 from .outcomes import Cost, Outcome, Quantity
 
 __all__ = ["DEFAULT_STIFFNESSES", "QUANTITIES", "disks_of", "forces_of", "measure", "prepare", "run", "section_of"]
@@ -133,18 +133,17 @@ def measure(case: Case, folder, found) -> Outcome:
     """
     s, state = section_of(case), found["state"]
     if "simulated_s" not in found:  # as of versions whose steps were all as long
-        raise ComparisonError(
-            f"{folder}: its result.json has no simulated_s; remove the folder and go on with --resume"
-        )
+        raise CaseError(f"{folder}: its result.json has no simulated_s; remove the folder and go on with --resume")
     series, second = (
         characteristic_times.chosen_rows(records.read_series(folder / "series.csv"), state),
         scales.of(s).mean_seconds,
     )
     times = characteristic_times.of_run(series, s, state)
     t, last = series["time_s"], float(series["time_s"][-1])
-    at = (
-        lambda name, when, span=second: None if when is None else characteristic_times.mean_of(series, name, when, span)
-    )  # noqa: E731
+
+    def at(name, when, span=second):
+        return None if when is None else characteristic_times.mean_of(series, name, when, span)
+
     begin, end = (
         records.read_snapshot(folder / name) if (folder / name).exists() else None for name in ("t0.npz", "end.npz")
     )

@@ -36,7 +36,10 @@ def estimate(hard, soft):
     difference lies within the scatter, so that they differ by no more than two packings do; False where it does not and
     leaves zero out; None where so few seeds, or one alone, cannot tell.
     """
-    number = lambda values: [v for v in values if v is not None]  # noqa: E731
+
+    def number(values):
+        return [v for v in values if v is not None]
+
     pairs = [(a, b) for a, b in zip(hard, soft) if a is not None and b is not None]
     found = {}
     for world, values in (("hard", number(hard)), ("soft", number(soft))):
@@ -119,7 +122,10 @@ def summarise(scenario, plan, outcomes):
         for b in hard[k + 1 :]
         if a.deposit is not None and b.deposit is not None
     ]
-    mean = lambda name, world: quantities[name][world]["mean"] if name in quantities else None  # noqa: E731
+
+    def mean(name, world):
+        return quantities[name][world]["mean"] if name in quantities else None
+
     numerics, sweep = [outcomes[c] for c in plan.numerics], [outcomes[c] for c in plan.sweep]
     chance = precision.scatter(hard, keys)
     work = _work(numerics, sweep, [outcomes[plan.fragile]] if plan.fragile else [], chance, keys)
@@ -193,13 +199,16 @@ def _work(numerics, sweep, aside, chance, keys):
 
     ``aside``: soft outcomes that are shown but not compared.
     """
-    point = lambda o, reference: {
-        "run": o.case.name,
-        "label": o.case.label,
-        "wall_s": o.cost.wall_s,
-        "error": precision.error(o, reference, keys),  # noqa: E731
-        "parts": precision.parts(o, reference, keys),
-    }
+
+    def point(o, reference):
+        return {
+            "run": o.case.name,
+            "label": o.case.label,
+            "wall_s": o.cost.wall_s,
+            "error": precision.error(o, reference, keys),
+            "parts": precision.parts(o, reference, keys),
+        }
+
     found = {"scatter": chance, "reference_hard": numerics[-1].case.name, "reference_soft": sweep[-1].case.name}
     for kind, references in (
         ("against_hard", (numerics[-1], numerics[-1])),

@@ -169,7 +169,11 @@ class HeapResult:
 
     def summary(self):
         """Numbers of the run, a dictionary that JSON can hold."""
-        s, last = self.series, lambda name: float(self.series[name][-1])
+        s = self.series
+
+        def last(name):
+            return float(s[name][-1])
+
         return {
             "world": self.world,
             "settings": self.settings,
@@ -241,7 +245,7 @@ class _Damping:
         )
 
 
-class _Course(driver.Course):
+class _HeapCourse(driver.Course):
     """From the release to the rest on the floor; arguments as of :func:`run`."""
 
     def __init__(self, scene, duration, frames, progress, damping_moving):
@@ -307,7 +311,7 @@ def run(heap, world=None, duration=DURATION, frames=FRAMES, progress=lambda shar
     """
     checks.number("duration", duration, HeapError, "give a number above 0, in units of T = √(H/g)", above=0)
     worlds.check_damping(world or "hard", damping_moving)
-    course = _Course(build(heap, world), duration, frames, progress, damping_moving)
+    course = _HeapCourse(build(heap, world), duration, frames, progress, damping_moving)
     driver.drive(course)
     prepared, world, t = course.scene.prepared, course.scene.world, preparation.disk_table(course.scene.stand)
     return HeapResult(

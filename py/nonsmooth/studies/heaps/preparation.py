@@ -126,7 +126,10 @@ def put(heap, world, x, y, r, still=False):
     if still:
         grains, floor = (replace(m, restitution=0.0) for m in (grains, floor))
     O.reset()
-    add = lambda m: O.materials[O.materials.append(m)]  # noqa: E731
+
+    def add(m):
+        return O.materials[O.materials.append(m)]
+
     stuff, ground = add(world.material(grains)), add(world.wall_material(floor))
     side, held = (
         add(

@@ -117,7 +117,10 @@ def over_runs(runs):
                 "profiles: a run has kept no places on its way, as runs of earlier versions; run it again without --resume"
             )
         each = [of_run(s, study.film(folder)[2], heap.gravity) for s, (heap, told, folder) in zip(seen, runs)]
-        mean = lambda s, value: float(np.mean([value(one) for one in s]))  # noqa: E731
+
+        def mean(s, value):
+            return float(np.mean([value(one) for one in s]))
+
         found.append(
             {
                 "at": at,
@@ -140,7 +143,10 @@ def _over(share, profiles, runs):
     layers = min(len(p.z) for p in profiles)
     sizes = [heap.mean_diameter() for heap, _, _ in runs]
     units = [math.sqrt(heap.gravity * told["height_m"]) for heap, told, _ in runs]
-    plain = lambda value: value if math.isfinite(value) else None  # noqa: E731
+
+    def plain(value):
+        return value if math.isfinite(value) else None
+
     return {
         "behind": share,
         "z_d": [k + 0.5 for k in range(layers)],

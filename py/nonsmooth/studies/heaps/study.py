@@ -97,7 +97,10 @@ def _write(folder, result):
     """The disks of a run as records.Snapshots: on the way and in the end, and compact ones for the video."""
     kept, film = folder / SNAPSHOTS, folder / FRAMES
     remove([*whole(kept, "*.npz"), *whole(film, "*.npz")], "left from an earlier run")
-    step = lambda time: round(time / result.time_step)  # noqa: E731
+
+    def step(time):
+        return round(time / result.time_step)
+
     for time, (x, y) in result.frames.items():
         records.write_snapshot(kept / f"{step(time):08d}.npz", time_s=time, step=step(time), x=x, y=y, r=result.r)
     end = {name: result.series[name][-1] for name in ("time_s", "step")}

@@ -47,9 +47,9 @@ def effects(material, seeds, count=COUNT, pressure=PRESSURE, **options):
             for v in values
         }
 
-    shaped = lambda test, **fields: dataclasses.replace(
-        test, shape=dataclasses.replace(test.shape, **fields)
-    )  # noqa: E731
+    def shaped(test, **fields):
+        return dataclasses.replace(test, shape=dataclasses.replace(test.shape, **fields))
+
     return [
         Effect(
             "disks",

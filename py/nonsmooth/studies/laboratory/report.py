@@ -113,9 +113,10 @@ def draw(out, summary):
 def _pictures(test, frames, out):
     """The sample by rotation, and its forces: from snapshots by name."""
     order = [name for name in ("1", "2", "4", "end") if name in frames]
-    title = (
-        lambda name: f"{'end' if name == 'end' else f'ε₁ = {name} %'}, σ₃ = {test['confining_Pa'] / 1e6:g} MPa"
-    )  # noqa: E731
+
+    def title(name):
+        return f"{'end' if name == 'end' else f'ε₁ = {name} %'}, σ₃ = {test['confining_Pa'] / 1e6:g} MPa"
+
     # a test that ends before the first of these strains has one state
     panels = [(title(name), frames[name]) for name in dict.fromkeys((order[0], order[-1]))]
     return [

@@ -199,9 +199,10 @@ def table(found, others, command):
         "disks": found[0]["disks"][-1],
     }
     names = ("cohesion_rel", "friction_angle_deg")
-    error = lambda share: {
-        n: half_width(math.sqrt(share) * scatter[n], scatter["freedom"]) for n in names
-    }  # noqa: E731
+
+    def error(share):
+        return {n: half_width(math.sqrt(share) * scatter[n], scatter["freedom"]) for n in names}
+
     wwr, shape = rock(USUAL), Shape(scatter["disks"], seeds[0])
     box = shape.section().disks
     higher, whole = (
@@ -277,7 +278,10 @@ def left_out(found):
 
 def rows(found):
     """(heads, lines) of texts for what :func:`run` returned: a line for each rock."""
-    text = lambda value, *how: told(value["mean"], value["half_width"], *how)  # noqa: E731
+
+    def text(value, *how):
+        return told(value["mean"], value["half_width"], *how)
+
     return ["", "μ_s", "φ [°]", "c / σ_ext", f"c / σ_ext without {PRESSURES[0]:g} σ_ext", "disks", "samples"], [
         [
             row["label"],

@@ -29,7 +29,7 @@ from ...running import side_by_side
 from ...running.kept_runs import Progress
 from ...system import keys
 
-__all__ = ["COLUMNS", "Slide", "SlideError", "SlideTest", "run", "run_one", "slide", "strength_of"]
+__all__ = ["COLUMNS", "SlideError", "SlideResult", "SlideTest", "run", "run_one", "slide", "strength_of"]
 
 BLOCK_STRENGTH = 1e9  # Pa, of the block's own bonds
 BLOCK_BONDS = 0.15  # ℓ; a disk that the block does not hold could roll between it and the wall
@@ -96,7 +96,7 @@ class SlideTest:
 
 
 @dataclass(frozen=True)
-class Slide:
+class SlideResult:
     """What a test found: stresses [Pa] at the peak and after slip, and the share of the wall that bonded disks
     cover.
     """
@@ -111,7 +111,7 @@ class Slide:
 
 def slide(test, record=lambda row: None):
     """Does a SlideTest; fills the scene anew. ``record``: called with a row of :data:`COLUMNS`, a dictionary, for each
-    step of the slip. Returns a Slide.
+    step of the slip. Returns a SlideResult.
     """
     from yade import O
 
@@ -172,7 +172,7 @@ def slide(test, record=lambda row: None):
     course = _Pull(test.way, width, pull, record)
     driver.drive(course)
     stresses = (force / width for force in (*course.peak, *np.mean(course.late, axis=0)))
-    return Slide(*stresses, float(sum(bonded)) / width, len(made))
+    return SlideResult(*stresses, float(sum(bonded)) / width, len(made))
 
 
 class _Pull(driver.Course):
@@ -209,8 +209,8 @@ def _radius(O, interaction, wall):
 
 
 def run_one(folder, **plain):
-    """Does the SlideTest given as plain data, writes its ``series.csv`` into the folder, and returns its Slide as a
-    dictionary.
+    """Does the SlideTest given as plain data, writes its ``series.csv`` into the folder, and returns its SlideResult
+    as a dictionary.
     """
     test, note, folder = (
         SlideTest(**{**plain, "material": materials.of(plain["material"])}),
@@ -249,8 +249,8 @@ def run(tests, out, threads, resume=False, progress=lambda share, doing: None):
         SlideError,
         progress=lambda share, ended: progress(share, f"{ended} of {len(made)} slides done"),
     )
-    names = Slide.__dataclass_fields__
-    return [Slide(**{name: one[name] for name in names}) for one in found]
+    names = SlideResult.__dataclass_fields__
+    return [SlideResult(**{name: one[name] for name in names}) for one in found]
 
 
 def strength_of(tests, slides):

@@ -54,7 +54,10 @@ def verdict(row, shipped):
         found = ", ".join("–" if row[name] is None else f"{row[name]:.{SHOWN[name][1]}f}" for name in numbers)
         met = [row[n] is not None and abs(row[n] - wanted) <= allowed for n, (wanted, allowed) in numbers.items()]
         criteria[key] = {"found": found, "met": all(met) if all(_told(row, n) for n in numbers) else None}
-    meets = lambda one, name: one["misses"][name] is not None and abs(one["misses"][name]) <= 1  # noqa: E731
+
+    def meets(one, name):
+        return one["misses"][name] is not None and abs(one["misses"][name]) <= 1
+
     lost = [name for name in PAPER if meets(shipped, name) and not meets(row, name) and _told(row, name)]
     met = [c["met"] for c in criteria.values()]
     default = False if False in met or lost else None if None in met else True

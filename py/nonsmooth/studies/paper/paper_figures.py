@@ -31,7 +31,10 @@ def draw(found, out) -> list:
         friction = first.section.materials[dp.material].friction
         cases = [(run.series, run.summary["times_s"], friction) for run in moved]
         made.append(figures.forces_against_water(cases, out / "paper_forces.png", toe=_toe(first), walls=first.section))
-    turned = lambda run: while_it_fails(run.folder, run.series, run.summary["times_s"], "t0", "t2")  # noqa: E731
+
+    def turned(run):
+        return while_it_fails(run.folder, run.series, run.summary["times_s"], "t0", "t2")
+
     seen = [(run, pair) for run in moved if (pair := turned(run)) is not None]
     if seen:
         cases = [(f"packing {run.section.seed}", *pair, run.section) for run, pair in seen]

@@ -114,9 +114,10 @@ def run(names, out, disks, seeds, threads=1, resume=False, progress=lambda share
             for seed, told in zip(seeds, shipped)
         )
         done = len(found) * len(seeds)
-        shown = lambda share, ended, n=len(runs), done=done: progress(
-            (done + share * n) / whole, done + ended
-        )  # noqa: E731
+
+        def shown(share, ended, n=len(runs), done=done):
+            return progress((done + share * n) / whole, done + ended)
+
         Plan(SECTION, FUNCTION, runs).run(Path(out) / folder, threads, resume, shown)
         opened = iter(open_run(Path(out) / folder / "runs" / one.name) for one in runs)
         found |= {name: [next(opened) for _ in seeds] for name in group}
@@ -166,8 +167,13 @@ def _durations(summary):
     characteristic_times.by_threshold.
     """
     t3 = summary.get("times_s", {}).get("t3")
-    known = lambda name: summary.get(name, {}).items()  # noqa: E731
-    less = lambda a, b: None if a is None or b is None else a - b  # noqa: E731
+
+    def known(name):
+        return summary.get(name, {}).items()
+
+    def less(a, b):
+        return None if a is None or b is None else a - b
+
     return {
         "triggering_by_speed_s": {percent: less(t3, t2) for percent, t2 in known("t2_by_speed_s")},
         "motion_by_speed_s": {percent: less(t5, t3) for percent, t5 in known("t5_by_speed_s")},

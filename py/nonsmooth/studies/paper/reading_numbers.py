@@ -167,7 +167,10 @@ def tables(rows):
     beside the paper's, the nearest first, and its samples under 8 MPa.
     """
     ordered = by_distance(rows)
-    mean = lambda row, name: told(row[name], row.get(f"{name}_95"), SHOWN[name][1])  # noqa: E731
+
+    def mean(row, name):
+        return told(row[name], row.get(f"{name}_95"), SHOWN[name][1])
+
     paper = {name: wanted for name, (wanted, _) in PAPER.items()}
     heads = ["reading", "platens", *(head for head, _ in SHOWN.values()), f"{PEAKS}, 4 to 16 MPa", "distance"]
     lines = [["the paper", "", *(mean(paper, name) for name in SHOWN), "all", ""]]
@@ -200,7 +203,10 @@ def by_distance(rows):
     """Rows of :func:`.readings.run`, those of a reading together and the nearest first: readings by their nearest
     row.
     """
-    far = lambda row: math.inf if row["distance"] is None else row["distance"]  # noqa: E731
+
+    def far(row):
+        return math.inf if row["distance"] is None else row["distance"]
+
     nearest = {}
     for row in rows:
         nearest[row["name"]] = min(nearest.get(row["name"], math.inf), far(row))

@@ -77,8 +77,13 @@ def _layers(thickness, thinnest=4.0):
         axes = np.array([[-math.cos(beta), math.sin(beta)], [math.sin(beta), math.cos(beta)]])  # up DP, and off it
         crown = axes @ data["layers"][0]["vertices"][-1]  # of DP
         foot, edge = (axes @ data["layers"][-1]["vertices"][k] for k in (1, 2))  # of the surface
-        surface = lambda s: foot[1] + (edge[1] - foot[1]) * s / edge[0]  # noqa: E731
-        face = lambda off: crown[0] + (edge[0] - crown[0]) * off / edge[1]  # noqa: E731
+
+        def surface(s):
+            return foot[1] + (edge[1] - foot[1]) * s / edge[0]
+
+        def face(off):
+            return crown[0] + (edge[0] - crown[0]) * off / edge[1]
+
         bottoms = np.arange(0.0, foot[1] - thinnest, thickness)
         ends = (foot[1] - bottoms - thinnest) * edge[0] / (foot[1] - edge[1])  # where each is the thinnest
         made = []
@@ -191,8 +196,8 @@ def run(
     are run once. Returns rows, a list of dictionaries, one for each reading and each of the ``platens`` between which
     its samples are tested; a reading that stands once is tested between its own.
 
-    ``pressures`` [Pa]; ``slopes``: whether the slopes are run. What a row would take from other tests, or from slopes,
-    is None in it.
+    ``pressures`` [Pa]; ``slopes``: whether the slopes, of about ``slope_disks``, are made and run. What a row would
+    take from other tests, or from slopes, is None in it.
 
     A row has ``name``, ``label``, ``platens``, ``folder`` (of its tests, below ``out``), and what
     :func:`.reading_numbers.row` says. ``progress``: called with the share done and what is being done. Raises what
@@ -200,7 +205,7 @@ def run(
     """
     out, wanted = Path(out), {}
     for name, reading in chosen.items():
-        data = [section_data.plain(slope_of(reading, slope_disks, seed)) for seed in seeds]
+        data = [section_data.plain(slope_of(reading, slope_disks, seed)) for seed in seeds] if slopes else None
         sloped_key = keys.key_of(data)
         for p in reading.platens:
             if p in platens or len(reading.platens) == 1:
@@ -212,9 +217,10 @@ def run(
     measured, failed = {}, {}
     share_of_tests = 0.6 if sloped else 1.0
     for k, (key, (name, tests)) in enumerate(tested.items()):
-        shown = lambda share, doing, k=k, name=name: progress(  # noqa: E731
-            share_of_tests * (k + share) / len(tested), f"{', '.join(name)}: {doing}"
-        )
+
+        def shown(share, doing, k=k, name=name):
+            return progress(share_of_tests * (k + share) / len(tested), f"{', '.join(name)}: {doing}")
+
         folder = Path("samples", *name)
         found = campaign.run(tests, out / folder, threads, resume, shown)
         measured[key] = folder.as_posix(), campaign.summarise(tests[0].material, found, threads=threads)
@@ -229,7 +235,10 @@ def run(
         for name, data in sloped.values()
         for seed, one in zip(seeds, data)
     ]
-    shown = lambda share, ended: progress(0.6 + 0.4 * share, f"{ended} of {len(made)} slopes")  # noqa: E731
+
+    def shown(share, ended):
+        return progress(0.6 + 0.4 * share, f"{ended} of {len(made)} slopes")
+
     found = iter(side_by_side.run(made, threads, resume, progress=shown, go_on=True) if made else ())
     for key in sloped:
         failed[key] = [next(found) for _ in seeds]

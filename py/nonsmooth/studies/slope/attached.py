@@ -54,7 +54,8 @@ def row():
     runner = next((e for e in O.engines if isinstance(e, CourseRunner) and hasattr(e, "course")), None)
     if runner is None:
         raise ExperimentError(
-            "this process does not know the stages of this slope, as the scene was loaded without its run: continue with experiment.resume(section, folder).attach()"
+            "this process does not know the stages of this slope, as the scene was loaded without its run: continue "
+            "with experiment.resume(section, folder).attach()"
         )
     _row_came(runner)
 

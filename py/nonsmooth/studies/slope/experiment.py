@@ -330,7 +330,8 @@ def begin(section, folder, progress=None, packing=None, world=None, damping_movi
     _check(section, folder)
     if packing is not None and not isinstance(packing, Packing):
         raise ArgumentError(
-            f"packing {checks.shown(packing)}: give a Packing, as packing.read_text(file) returns one, or none for one of our own"
+            f"packing {checks.shown(packing)}: give a Packing, as packing.read_text(file) returns one, or none for one "
+            "of our own"
         )
     if world is not None:
         worlds.check(world)

@@ -228,12 +228,15 @@ def _toe_bands(folder, every, section, times, first, last):
     if seen is None:
         return None
     envelope = section.envelope
-    plain = lambda band: band and {  # noqa: E731
-        "inclination_deg": band.inclination_deg,
-        "width_d": band.width,
-        "rotation_rad": band.rotation,
-        "contrast": band.contrast if math.isfinite(band.contrast) else None,
-    }
+
+    def plain(band):
+        return band and {
+            "inclination_deg": band.inclination_deg,
+            "width_d": band.width,
+            "rotation_rad": band.rotation,
+            "contrast": band.contrast if math.isfinite(band.contrast) else None,
+        }
+
     found = toe_bands.find(*seen, section)
     towards_foot, conjugate = map(plain, found)
     return {
@@ -320,11 +323,10 @@ def summarise(folder, section, state, threads=None) -> dict:
     times, begins = of_run(series, section, state), weakening_begins(series, section, state)
     last, second = float(series["time_s"][-1]), scales.of(section).mean_seconds
     leans = bool(section.of_role("backstop"))  # or its force has no meaning
-    at = (
-        lambda name, end, span=second: None
-        if end is None or not (leans or name != "fb_normal_N_per_m")
-        else mean_of(series, name, end, span)
-    )  # noqa: E731
+
+    def at(name, end, span=second):
+        return None if end is None or not (leans or name != "fb_normal_N_per_m") else mean_of(series, name, end, span)
+
     t0, t1 = times["t0"], times["t1"]
     finished = state["stage"] == "done"
     begin = t0 if t0 is not None else last if failed_dry is None else 0.0

@@ -182,7 +182,7 @@ def test_resume_keeps_what_has_finished(compared, source, tmp_path):
 
 def test_a_run_that_fails_says_so_and_keeps_the_others(tmp_path):
     made = [cases.Case("hard", "no-such-section", 300, 1)]
-    with pytest.raises(cases.ComparisonError, match="no-such-section.*--resume"):
+    with pytest.raises(cases.CaseError, match="no-such-section.*--resume"):
         runs.run(slopes.run, made, tmp_path, 1)
 
 

@@ -283,7 +283,8 @@ def test_a_second_of_simulation_costs_the_median_of_the_blocks():
     assert (found["steps"], found["contacts"], found["mean_speed_m_per_s"]) == (50, 7, 0.1)
 
 
-def test_the_report_of_cost_names_bonds_and_losses(tmp_path, monkeypatch):
+def costs_told(*moduli):
+    """What cost.run finds where overlaps go as 1/E, of soft contacts of these moduli [Pa]."""
     one = {
         "time_step_s": 1e-3,
         "wall_s_per_step": 1e-3,
@@ -293,9 +294,9 @@ def test_the_report_of_cost_names_bonds_and_losses(tmp_path, monkeypatch):
         "contacts": 10,
         "mean_speed_m_per_s": 0.1,
     }
-    soft = [{**one, "stiffness_Pa": e, "overlap_mean_rel": 1e6 / e, "overlap_worst_rel": 1e7 / e} for e in (1e8, 1e9)]
+    soft = [{**one, "stiffness_Pa": e, "overlap_mean_rel": 1e6 / e, "overlap_worst_rel": 1e7 / e} for e in moduli]
     told = cost.summarise({"hard": {"moving": one, "rest": one}, "soft": {"moving": soft, "rest": soft}})
-    told |= summary.clean(
+    return told | summary.clean(
         {
             "disks": 10,
             "threads": 1,
@@ -310,6 +311,10 @@ def test_the_report_of_cost_names_bonds_and_losses(tmp_path, monkeypatch):
             "machine": machine.describe(),
         }
     )
+
+
+def test_the_report_of_cost_names_bonds_and_losses(tmp_path, monkeypatch):
+    told = costs_told(1e8, 1e9)
     monkeypatch.chdir(tmp_path)
     for _ in range(2):  # a resume writes it again
         cost_report.write(Path("out/cost"), told)  # as the command has it
@@ -328,6 +333,22 @@ def test_the_report_of_cost_names_bonds_and_losses(tmp_path, monkeypatch):
         for contacts in ("hard", "soft, E = 100 MPa", "soft, E = 1 GPa")
     ]
     assert dict(zip(heads, rows[2]))["mean overlap"] == "0.001"
+
+
+def test_one_stiffness_gives_no_exponent_and_the_report_of_cost_says_so(tmp_path):
+    """What equal overlap takes is not told as a number that is not known; what was measured is."""
+    ((_, verdict, sentences),) = cost_report.write(tmp_path, costs_told(1e8))
+    assert verdict == "not known" and sentences[0] == (
+        "During the avalanche a second of simulation takes 1 s of wall time with rigid disks, and 1 times as long with "
+        "soft contacts of E = 100 MPa, whose mean overlap is 0.01 of the mean diameter, that of rigid ones 0.001. One "
+        "stiffness gives no exponent, of overlaps or of cost, so what soft contacts of equal overlap take is not "
+        "known; give --stiffness two values or more. A rock's stiffness, 10 GPa, would take 10 times as long as rigid disks "
+        "(extrapolated)."
+    )
+    page = (tmp_path / "report.html").read_text()
+    assert "E not known" not in page and "as another: ." not in page and page.count(cost_report.ONE_STIFFNESS) == 3
+    ((_, _, sentences),) = cost_report.write(tmp_path, costs_told(1e8, 1e9))
+    assert "One stiffness" not in "".join(sentences) and ". Soft contacts of equal mean overlap" in sentences[0]
 
 
 def test_cost_of_a_stiffness_that_was_not_run():
@@ -371,7 +392,7 @@ def test_plan_has_every_run_once():
     ],
 )
 def test_lists_that_cannot_be_used(change, wanted):
-    with pytest.raises(cases.ComparisonError, match=wanted):
+    with pytest.raises(cases.CaseError, match=wanted):
         cases.plan(**{"source": "slope", "disks": 300, "seeds": [1, 2], "stiffnesses": [1e8, 1e9], **change})
 
 
@@ -386,7 +407,7 @@ def test_lists_that_cannot_be_used(change, wanted):
     ],
 )
 def test_cost_refuses_before_it_measures(tmp_path, change, wanted):
-    with pytest.raises(cases.ComparisonError, match=wanted):
+    with pytest.raises(cases.CaseError, match=wanted):
         cost.run(tmp_path, **{"source": "jiufengershan", "disks": 300, "threads": 1, "stiffnesses": [1e8], **change})
     assert not list(tmp_path.iterdir())
 
@@ -439,7 +460,7 @@ def test_options_and_their_defaults():
     ],
 )
 def test_options_that_do_not_apply(words, wanted):
-    with pytest.raises(cases.ComparisonError, match=wanted):
+    with pytest.raises(cases.CaseError, match=wanted):
         options.read("", words.split())
 
 
@@ -481,16 +502,16 @@ def test_springs_too_weak_for_a_tall_column_are_refused_at_once():
         ).sweep
 
     course.check_stiffnesses(collapses.COLUMN, sweep(2.0))
-    with pytest.raises(cases.ComparisonError, match="--stiffness 1e\\+08: .* as --stiffness 1e\\+09,1e\\+10,1e\\+11"):
+    with pytest.raises(cases.CaseError, match="--stiffness 1e\\+08: .* as --stiffness 1e\\+09,1e\\+10,1e\\+11"):
         course.check_stiffnesses(collapses.COLUMN, sweep(6.0))
     course.check_stiffnesses(slopes, [soft_case()])  # others have no such limit
 
 
 def test_a_biaxial_test_needs_the_wall_time_of_its_steps_and_a_plateau(tmp_path):
-    with pytest.raises(cases.ComparisonError, match="wall_steps_s.*--resume"):
+    with pytest.raises(cases.CaseError, match="wall_steps_s.*--resume"):
         biaxials.measure(soft_case(source="wwr"), tmp_path, {"wall_s": 1.0})
     for strain in (0.001, 1.0, math.nan):
-        with pytest.raises(cases.ComparisonError, match="--strain"):
+        with pytest.raises(cases.CaseError, match="--strain"):
             biaxials.test_of(soft_case(source="wwr", options={"strain": strain}))
 
 

@@ -48,7 +48,7 @@ def told(tmp_path, monkeypatch):
         for t in tests:
             cohesion = 10e3 * t.seed * t.material.bonded
             found.append(
-                wall_shear.Slide(
+                wall_shear.SlideResult(
                     t.pressure,
                     cohesion + t.material.friction * t.pressure,
                     t.pressure,

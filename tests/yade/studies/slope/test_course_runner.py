@@ -1,6 +1,4 @@
 """A slope's course by the CourseRunner: O.run(), O.step() and yade-batch make the same rows as the script."""
-import os
-import subprocess
 import sys
 
 import pytest
@@ -159,14 +157,6 @@ def test_yade_batch_drives_a_slope(whole, tmp_path):
     script, table = tmp_path / "slope.py", tmp_path / "slope.table"
     script.write_text(BATCH.format(source=str(SMALL), out=str(tmp_path / "out-")))
     table.write_text("seed\n3\n")
-    environment = {k: v for k, v in os.environ.items() if k not in ("OMP_NUM_THREADS", "YADE_BATCH")}
-    done = subprocess.run(
-        [shell.PREFIX / "bin" / "yade-batch", "-j1", "--log", "slope.@.log", str(table), str(script)],
-        cwd=tmp_path,
-        env=environment,
-        text=True,
-        capture_output=True,
-        timeout=300,
-    )
+    done = shell.batch(table, script, tmp_path, "slope.@.log")
     assert done.returncode == 0, done.stdout + done.stderr
     assert bytes_of(tmp_path / "out-3") == bytes_of(whole.folder)

@@ -597,8 +597,12 @@ def test_a_slope_of_another_size_has_the_same_summary_in_its_units(tmp_path, siz
         "time_s": "time",
         **{name: "length" for name in ("water_m", "front_m", "centroid_x_m", "centroid_y_m")},
         **{name: "speed" for name in ("speed_mean_m_per_s", "speed_max_m_per_s")},
-        **{name: "energy" for name in records.COLUMNS if name.startswith("energy") and name.endswith("_J")},
-        **{name: "force" for name in records.COLUMNS if name.endswith("N_per_m") and not name.startswith("residual")},
+        **{name: "energy" for name in known_slope.COLUMNS if name.startswith("energy") and name.endswith("_J")},
+        **{
+            name: "force"
+            for name in known_slope.COLUMNS
+            if name.endswith("N_per_m") and not name.startswith("residual")
+        },
     }
     stretch = lambda made: lambda: {
         name: size * values if name in "xyr" else values for name, values in made().items()

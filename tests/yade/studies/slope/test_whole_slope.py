@@ -6,6 +6,7 @@ import pytest
 from by_hand import Known
 from yade.nonsmooth import records
 from yade.nonsmooth.studies.slope import frames
+from yade.nonsmooth.studies.slope.columns import COLUMNS
 
 
 def test_it_settles_gets_wet_fails_weakens_moves_and_rests(whole):
@@ -57,13 +58,13 @@ CLOSE = {
 
 
 def test_every_column_is_recomputed(whole):
-    assert set(whole.series) == set(records.COLUMNS) == {name for name in vars(Known) if name in records.COLUMNS}
+    assert set(whole.series) == set(COLUMNS) == {name for name in vars(Known) if name in COLUMNS}
 
 
-@pytest.mark.parametrize("name", records.COLUMNS)
+@pytest.mark.parametrize("name", COLUMNS)
 def test_a_column_is_what_the_steps_say(known, name):
     found, expected = known.series[name], getattr(known, name)()
-    if records.COLUMNS[name].integer:
+    if COLUMNS[name].integer:
         assert np.array_equal(found, expected), np.flatnonzero(found != expected)[:5]
     else:
         assert np.abs(found - expected).max() <= CLOSE.get(name, 1e-9) * np.abs(expected).max(), np.argmax(
