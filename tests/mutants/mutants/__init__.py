@@ -1,5 +1,5 @@
 """The table of mutants. A new one goes into the file of its subject; see tests/README.md."""
-from . import between, course, drawing, engines, impacts, laboratory, law, plane, results, solver, state, walls
+from . import between, course, drawing, engines, impacts, laboratory, law, plane, results, safety, solver, state, walls
 
 MUTANTS = (
     law.MUTANTS
@@ -12,6 +12,7 @@ MUTANTS = (
     + walls.MUTANTS
     + course.MUTANTS
     + results.MUTANTS
+    + safety.MUTANTS
     + laboratory.MUTANTS
     + drawing.MUTANTS
 )
