@@ -27,6 +27,7 @@ MODULES = (
     "methods",
     "convergence",
     "collapse",
+    "safety",
     "avalanche",
     "paper",
 )

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from dataclasses import asdict, dataclass, field, replace
 
 from ...course import strength_reduction
@@ -46,8 +47,11 @@ class Asked:
         self._set("quantities", QUANTITIES, self.quantities)
         if self.materials is not None:
             self._set("materials", tuple(section.materials), self.materials)
+        for name, given in (("numbers", self.numbers), ("world", self.world)):
+            if not isinstance(given, Mapping):
+                raise SafetyError(f"{name} {checks.shown(given)}: give a dictionary, {{name: value}}")
         known = ("step", "within", "most", "least")
-        for name in checks.mapping("numbers", {"step": 0.1} | dict(self.numbers), SafetyError, "give a dictionary"):
+        for name in self.numbers:
             if name not in known:
                 raise SafetyError(f"{name}: no number of a search; give some of {', '.join(known)}")
         self.rules()

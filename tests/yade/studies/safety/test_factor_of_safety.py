@@ -7,7 +7,6 @@ import math
 import numpy as np
 import pytest
 import sliding_block
-from shell import ROOT
 from yade import O
 from yade.nonsmooth import records, runs, section
 from yade.nonsmooth.course import driver, strength_reduction as reduction
@@ -78,7 +77,7 @@ def test_priests_block_with_water_in_its_crack(tmp_path):
     weight, crack, plane = 25 * 329.55, 0.5 * 9.81 * 3.75**2, 0.5 * 9.81 * 3.75 * 30  # kN/m
     book = (20 * 30 + (weight * c - plane - crack * s) * tan) / (weight * s + crack * c)
     assert book == pytest.approx(1.048, abs=5e-4)
-    made = section.load(str(ROOT / "doc" / "examples" / "priest.yaml"))
+    made = section.load("priest")
     summary, exact = found(tmp_path, made=made)
     assert holds(summary, exact)
     assert exact == pytest.approx(book, rel=0.01)  # the disks' weight and bonds are the book's to some per cent
@@ -266,6 +265,8 @@ def test_a_search_is_opened_from_its_folder(tmp_path):
         ({"world": {"stiffness": 1e9}}, "stiffness: rigid disks have no such value"),
         ({"world": {"name": "soft"}}, "stiffness None: give Young's modulus"),
         ({"world": {**SOFT, "colour": 1}}, "give fields of worlds.Soft"),
+        ({"world": "soft"}, "world 'soft': give a dictionary"),
+        ({"numbers": 0.1}, "numbers 0.1: give a dictionary"),
         ({"numbers": {"colour": 1}}, "colour: no number of a search"),
         ({"numbers": {"step": -1}}, "step -1"),
     ],
