@@ -11,8 +11,8 @@ BLOCK = "test_factor_of_safety.py::"
 
 MUTANTS = (
     # ---- rules of the search
-    mutant("safety-halves", RULES, "min(grown, 0.5 * (s.stable + s.failed))", "min(grown, 0.9 * s.stable + 0.1 * s.failed)", "a bracket is cut near its lower end, and its factor creeps up",
-           PLAIN + "test_a_slope_that_fails_as_it_is_has_a_factor_below_one", BLOCK + "test_a_dry_block_has_its_exact_factor"),
+    mutant("safety-halves", RULES, "min(grown, 0.5 * (s.stable + s.failed))", "min(grown, 0.5 * s.failed)", "a bracket is not halved",
+           PLAIN + "test_the_bracket_holds_the_factor_and_is_as_narrow_as_asked"),
     mutant("safety-jump", RULES, "factor=min(grown, 0.5", "factor=max(grown, 0.5", "a trial loses more strength at once than a step", PLAIN + "test_no_trial_loses_more_strength_than_a_step"),
     mutant("safety-loading", RULES, "max(s.factor * LOADING_STEP, rules.least)", "max(s.factor - LOADING_STEP, rules.least)", "a slope is loaded at factors that are not halved",
            PLAIN + "test_a_slope_that_never_stands_says_so"),

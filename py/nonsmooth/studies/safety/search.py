@@ -86,11 +86,11 @@ class Search(driver.Course):
         self.state.wall_s += seconds
 
     def _save(self):
-        if self.asked.hard:
+        if self.asked.hard or self._over():
             self._write(self.folder)
 
     def _finish(self):
-        self._write(self.folder)
+        self.checkpoint()
 
     # ---- trials -------------------------------------------------------------------------------
     @property
