@@ -11,18 +11,15 @@ import difflib
 import sys
 from pathlib import Path
 
-import yaml
 from tabulate import tabulate
 
 if "yade" in sys.modules:  # started by the launcher
     from yade.nonsmooth import campaign, commands, figures
     from yade.nonsmooth.commands import arguments, section_arguments
-    from yade.nonsmooth.model.section import reader as section_reader
 else:  # YADE runs in processes of its own
     sys.path.insert(0, str(Path(__file__).resolve().parents[1] / "py"))
     from nonsmooth import campaign, commands, figures
     from nonsmooth.commands import arguments, section_arguments
-    from nonsmooth.model.section import reader as section_reader
 
 NOTES = 3  # on what runs do, that are printed
 SHOWN = ("verdict", "water_highest_m", "water_at_failure_m", "front_travel_m", "deposit_thickness_max_m")
@@ -35,7 +32,7 @@ def read_arguments():
         "--over",
         action="append",
         default=[],
-        type=varied,
+        type=section_arguments.varied,
         metavar="KEY=V,V,…",
         help="values of a key of the section file, as water.table.rate=0.5,1 or walls.DP.material=dp,ss; several: all combinations",
     )
@@ -69,18 +66,6 @@ def read_arguments():
     )
     parser.add_argument("--collect", action="store_true", help="only collect the table of the plan in DIR")
     return parser.parse_args()
-
-
-def varied(text):
-    """KEY=V,V,… as (key, values)."""
-    key, sign, values = text.partition("=")
-    try:
-        found = section_reader.values(values)
-    except yaml.YAMLError:
-        found = None
-    if not sign or not key or not found:
-        raise argparse.ArgumentTypeError(f"{text[:60]!r}: give KEY=VALUE,VALUE,…, as seed=1,2,3")
-    return key, found
 
 
 def main():

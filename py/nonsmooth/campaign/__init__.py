@@ -4,6 +4,7 @@ table; and single runs of every kind. Needs no YADE: each run has a process of i
 * :mod:`sweep`: a slope with some of its values varied, and a slope alone;
 * :mod:`plan`: a plan in its folder: run, resumed, collected;
 * :mod:`cluster`: the same plan for Snakemake and for Slurm;
+* :mod:`safety`: factors of safety;
 * :mod:`heaps`: columns and piles;
 * :mod:`scripts`: lessons and any script; :mod:`script_run`: what a process does with one (in YADE);
 * :mod:`comparisons`: hard against soft.
@@ -19,6 +20,7 @@ Like this::
 from .comparisons import ComparisonError, ComparisonRun, open_comparison, run_comparison
 from .heaps import HeapRun, open_heap, run_column, run_heaps, run_pile
 from .plan import SEED, Plan, PlanError, Planned, collect, means, read, run_one
+from .safety import factors_of_safety, run_factor_of_safety
 from .scripts import LESSONS, ScriptError, ScriptRun, lesson, lessons, open_script, run_lesson, run_script, run_scripts
 from .sweep import results_of, run_slope, sweep
 
@@ -34,6 +36,7 @@ __all__ = [
     "ScriptError",
     "ScriptRun",
     "collect",
+    "factors_of_safety",
     "lesson",
     "lessons",
     "means",
@@ -44,6 +47,7 @@ __all__ = [
     "results_of",
     "run_column",
     "run_comparison",
+    "run_factor_of_safety",
     "run_heaps",
     "run_lesson",
     "run_one",

@@ -17,7 +17,7 @@ from ..studies.slope import results
 from ..system import checks, output_folder
 from .plan import Plan, PlanError, Planned
 
-__all__ = ["FUNCTION", "arguments_of", "results_of", "run_slope", "sweep"]
+__all__ = ["FUNCTION", "arguments_of", "combinations", "results_of", "run_slope", "sweep"]
 
 MOST = 10_000  # runs of a plan
 LONGEST = 150  # characters of a folder's name; longer ones become numbers
@@ -37,6 +37,14 @@ def sweep(base, over, end=None, figures=False) -> Plan:
     section.
     """
     _check(base, "base", end)
+    planned, notes = combinations(base, over, lambda made: arguments_of(made, end, figures))
+    return Plan(base.name, FUNCTION, planned, notes)
+
+
+def combinations(base, over, arguments) -> tuple:
+    """What a Plan has of all combinations of the values in ``over``: its runs and its notes. ``arguments(section)``:
+    those of the plan's function. The rest, and what it raises, as of :func:`sweep`.
+    """
     remedy = "give a dictionary {key: values}, as {'seed': [1, 2]}"
     if not isinstance(over, Mapping):
         raise PlanError(f"over {checks.shown(over)}: {remedy}")
@@ -67,14 +75,14 @@ def sweep(base, over, end=None, figures=False) -> Plan:
         except section_values.NoSuchKey as wrong:
             raise PlanError(str(wrong)) from None
         notes += section_checks.notes(made)
-        planned.append(Planned(name, values, arguments_of(made, end, figures), float(sum(made.disk_counts()))))
+        planned.append(Planned(name, values, arguments(made), float(sum(made.disk_counts()))))
     if "disks.diameter" in over and (base.disks.count or "disks.count" in over):
         notes.insert(
             0,
             f"{base.source}: the number of disks is given too, by which all diameters are scaled: of disks.diameter only the ratio counts; leave --disks or "
             "disks.count out to vary the size",
         )
-    return Plan(base.name, FUNCTION, tuple(planned), tuple(notes))
+    return tuple(planned), tuple(notes)
 
 
 def results_of(plan) -> list | None:

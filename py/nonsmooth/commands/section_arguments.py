@@ -6,10 +6,12 @@ import argparse
 import dataclasses
 import sys
 
-from ..model import materials, section
-from ..model.section import similar
+import yaml
 
-__all__ = ["add", "number", "read", "seconds", "threads"]
+from ..model import materials, section
+from ..model.section import reader, similar
+
+__all__ = ["add", "number", "read", "seconds", "threads", "varied"]
 
 
 def number(kind, low, high, what):
@@ -31,6 +33,18 @@ def number(kind, low, high, what):
 
 seconds = number(float, 1e-9, 1e9, "seconds above 0, at most 1e9")
 threads = number(int, 1, 1024, "a whole number from 1 to 1024")
+
+
+def varied(text):
+    """A reader for argparse: KEY=V,V,… as (key, values)."""
+    key, sign, values = text.partition("=")
+    try:
+        found = reader.values(values)
+    except yaml.YAMLError:
+        found = None
+    if not sign or not key or not found:
+        raise argparse.ArgumentTypeError(f"{text[:60]!r}: give KEY=VALUE,VALUE,…, as seed=1,2,3")
+    return key, found
 
 
 def add(parser, default=None, needless=()):

@@ -42,6 +42,7 @@ __all__ = [
     "State",
     "after",
     "care",
+    "collapsed",
     "damping",
     "flowing",
     "foreseen",
@@ -49,6 +50,7 @@ __all__ = [
     "keeps_frame",
     "next_row",
     "noted",
+    "passed",
     "stands",
     "tolerance",
     "water_table",
@@ -143,12 +145,13 @@ def noted(state, seen, scales):
     if s.failed_dry is None and s.moving is None:
         none = s.outside is None or seen.outside is None
         s = replace(s, outside=None if none else max(s.outside, seen.outside), wet=s.wet or seen.wet > 0)
-    if before and s.failed_dry is None and (seen.speed >= scales.going_speed or _collapsed(seen)):
+    if before and s.failed_dry is None and (seen.speed >= scales.going_speed or collapsed(seen)):
         return replace(s, failed_dry=seen.time, speed_max=s.speed_before)
     return replace(s, speed_max=0.0 if before and s.failed_dry is None else max(s.speed_max, seen.speed))
 
 
-def _collapsed(seen):
+def collapsed(seen):
+    """Whether the mass has collapsed, by its way and its broken bonds."""
     return seen.way >= COLLAPSED or (seen.broken >= CRACKED and seen.way >= CRACKED_WAY)
 
 
@@ -163,14 +166,14 @@ def after(state, seen, section, scales):
 
 def _settle(state, seen, section, scales):
     stage = section.stages.settle
-    resting = seen.speed <= stage.speed_rest or _passed(seen, stage.time_max)
+    resting = seen.speed <= stage.speed_rest or passed(seen, stage.time_max)
     if seen.time < stage.ramp or not (resting or state.failed_dry is not None):  # one that has failed is not waited for
         return state
     return replace(state, stage="dry", settled=seen.time, table_since=seen.time)
 
 
 def _dry(state, seen, section, scales):
-    if not _passed(seen, state.settled + section.stages.dry):
+    if not passed(seen, state.settled + section.stages.dry):
         return state
     failed_dry = seen.time if state.failed_dry is None and seen.speed >= scales.moving_speed else state.failed_dry
     state = replace(state, stage="water", t0=seen.time, failed_dry=failed_dry, stood=seen.speed < scales.stopped_speed)
@@ -202,7 +205,7 @@ def _water(state, seen, section, scales):
     since = (seen.time if s.resting_since is None else s.resting_since) if resting else None
     height = seen.water if rises else 0.0
     s = _quieted(s, seen, section)
-    over = _passed(seen, s.settled + stages.end.time) or (resting and _passed(seen, stages.end.rest_hold, since))
+    over = passed(seen, s.settled + stages.end.time) or (resting and passed(seen, stages.end.rest_hold, since))
     return replace(
         s,
         stage="done" if over or (not seen.more and stands(s, seen, section, scales)) else "water",
@@ -236,10 +239,10 @@ def stands(state, seen, section, scales):
     until it is solved more tightly, and at rest since.
     """
     hold = scales.still_seconds + section.stages.end.rest_hold
-    return state.quiet_since is not None and _passed(seen, hold, state.quiet_since)
+    return state.quiet_since is not None and passed(seen, hold, state.quiet_since)
 
 
-def _passed(seen, time, since=0.0):
+def passed(seen, time, since=0.0):
     """Whether a row is the first at or after a time [s], to half a step."""
     return seen.time - since >= time - 0.5 * seen.step
 

@@ -23,6 +23,10 @@ MARKERS = {
     "moved dry": ("D", True),
     "not at rest": ("^", False),
     "not over": ("d", False),
+    # of a search for a factor of safety
+    "found": ("s", True),
+    "stands": ("o", False),
+    "falls": ("v", True),
 }
 PLAIN = ("s", True)  # of results that have no verdict
 PANEL, HEIGHT, TOP, BOTTOM = (

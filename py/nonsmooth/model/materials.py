@@ -17,7 +17,7 @@ from . import section
 from .section import building as section_building, units as section_units, values as section_values
 from .section.reader import SCHEMA, Document, SectionError, read
 
-__all__ = ["SHIPPED", "bare", "data", "load", "of", "save", "smooth"]
+__all__ = ["QUANTITIES", "REDUCED", "SHIPPED", "bare", "data", "divided", "load", "of", "save", "smooth"]
 
 #: Names of the paper's Table 1, with the materials of the shipped section that hold their parameters.
 SHIPPED = {"wwr": "rock", "dp": "dp", "fb": "fb", "ss": "ss"}
@@ -71,6 +71,41 @@ def smooth(material):
     strengths = ("tensile_strength", "friction", "rolling_friction")
     none = dict.fromkeys([*strengths, *(f"residual_{name}" for name in strengths)], 0.0)
     return dataclasses.replace(material, bonded=False, **none)
+
+
+#: Strengths that :func:`divided` can divide.
+QUANTITIES = ("friction", "rolling_friction", "cohesion", "tension")
+REDUCED = QUANTITIES[:3]  # usually
+
+
+def divided(material, factor, quantities=REDUCED):
+    """The section.Material with some of its :data:`QUANTITIES` divided by a ``factor``: of a bond, of a contact without
+    one, and what slip leaves.
+
+    A contact slides at μ_s (F_a + N), F_a = σ ℓ, so its cohesion is the product μ_s F_a: divided with the friction, it
+    leaves the adhesion F_a as it is, as the apex of Mohr's line stays where c and tan φ fall together; divided alone it
+    divides F_a, and friction alone multiplies it. "tension" divides F_a besides. The torque of rolling goes with the
+    same F_a: μ_r ℓ (F_a + N).
+    """
+    friction = factor if "friction" in quantities else 1.0
+    rolling = factor if "rolling_friction" in quantities else 1.0
+    adhesion = friction / (factor if "cohesion" in quantities else 1.0)
+    adhesion = adhesion / (factor if "tension" in quantities else 1.0)
+    weak = material.slip_weakening
+    if weak is not None:
+        weak = dataclasses.replace(
+            weak, friction=weak.friction / friction, tensile_strength=weak.tensile_strength * adhesion
+        )
+    return dataclasses.replace(
+        material,
+        friction=material.friction / friction,
+        residual_friction=material.residual_friction / friction,
+        rolling_friction=material.rolling_friction / rolling,
+        residual_rolling_friction=material.residual_rolling_friction / rolling,
+        tensile_strength=material.tensile_strength * adhesion,
+        residual_tensile_strength=material.residual_tensile_strength * adhesion,
+        slip_weakening=weak,
+    )
 
 
 def of(plain):

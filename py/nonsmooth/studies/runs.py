@@ -4,7 +4,7 @@ video. Needs no YADE.
 Like this::
 
     run = runs.open_run("out/hill")
-    run.kind                           # "slope", "biaxial test", "slide" or "heap"
+    run.kind                           # "slope", "factor of safety", "biaxial test", "slide" or "heap"
     run.summary["water_at_failure_m"]
     run.series["front_m"]              # {column: array}; run.frame("series") is a pandas.DataFrame
     run.figure("forces")               # a matplotlib Figure, with axes to draw on
@@ -28,6 +28,7 @@ from ..system import checks, requirements
 from ..system.whole_files import whole
 from .heaps import columns as heap_columns, study
 from .laboratory import biaxial_test, wall_shear
+from .safety import columns as safety_columns, results as safety_results
 from .slope import columns as slope_columns, frames, results
 
 __all__ = [
@@ -38,6 +39,7 @@ __all__ = [
     "Run",
     "RunError",
     "RunFolderError",
+    "SafetyRun",
     "SlideRun",
     "SlopeRun",
     "StudyRun",
@@ -248,6 +250,46 @@ class SlopeRun(StudyRun):
 Run = SlopeRun  # its name for scripts and notebooks
 
 
+class SafetyRun(StudyRun):
+    """A search for a factor of safety, see :mod:`.safety`: its snapshots are "start" (the first rest), "rested" (the
+    last one of a trial), and "before_failure" and "failed", of the trial that failed at the smallest factor.
+    """
+
+    kind, COLUMNS = "factor of safety", safety_columns.COLUMNS
+
+    @cached_property
+    def section(self):
+        """The Section that was searched."""
+        return section.load(str(self.folder / section_data.FILE))
+
+    @cached_property
+    def summary(self) -> dict:
+        """``summary.json``: ``factor`` with its bracket ``factor_low`` and ``factor_high``, ``verdict`` and ``trials``;
+        RunError where the search has not come so far.
+        """
+        return json.loads(self._file(safety_results.SUMMARY).read_text())
+
+    @property
+    def snapshots(self) -> dict:
+        """Files of the snapshots, by their names: {name: path}."""
+        return {path.stem: path for path in whole(self.folder, "*.npz")}
+
+    def figure(self, name="displacements"):
+        """``displacements`` against the factor, or the ``failing_mass``, as a matplotlib Figure that is not written.
+        Raises RunError for another name, and where the search has not come to what it shows.
+        """
+        from .safety import pictures  # brings matplotlib, which a reader of numbers need not wait for
+
+        if name not in pictures.FIGURES:
+            raise RunError(f"{self.folder}: no figure is called {name!r}; give one of {', '.join(pictures.FIGURES)}")
+        found = pictures.figure(self.folder, self.section, self.summary, name)
+        if found is None:
+            raise RunError(
+                f"{self.folder}: the figure {name} needs a trial that has ended; the slope has not stood yet"
+            )
+        return found
+
+
 class BiaxialRun(StudyRun):
     """A biaxial test, see :mod:`.laboratory.biaxial`: its snapshots are "begin", "1", "2", "4" (per cent of strain) and
     "end".
@@ -303,13 +345,13 @@ def open_run(folder) -> StudyRun:
     none.
     """
     run = SlopeRun(folder)
-    if (run.folder / section_data.FILE).is_file():
-        return run
     try:
         with (run.folder / "series.csv").open() as file:
             names = {records.stem(name) for name in file.readline().strip().split(",")}
     except (OSError, ValueError):
         names = {None}
+    if (run.folder / section_data.FILE).is_file():
+        return SafetyRun(folder) if names == set(SafetyRun.COLUMNS) else run
     for kind in (BiaxialRun, SlideRun, HeapRun):
         if names <= set(kind.COLUMNS):
             return kind(folder)

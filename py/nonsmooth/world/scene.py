@@ -48,6 +48,7 @@ __all__ = [
     "material",
     "plate",
     "segments",
+    "set_strengths",
     "wall_material",
 ]
 
@@ -77,12 +78,7 @@ def material(m, kind=NscdMat, **others):
     """
     values = dict(
         density=m.density or 2500.0,
-        tensileStrength=m.tensile_strength,
-        residualTensileStrength=m.residual_tensile_strength,
-        frictionAngle=math.atan(m.friction),
-        residualFrictionAngle=math.atan(m.residual_friction),
-        rollingFriction=m.rolling_friction,
-        residualRollingFriction=m.residual_rolling_friction,
+        **_strengths_of(m),
         bondEllipseNormal=m.bond_ellipse[0],
         bondEllipseTangential=m.bond_ellipse[1],
         bondCreationDistance=m.bond_creation_distance,
@@ -103,13 +99,37 @@ def wall_material(m, **others):
     weak = m.slip_weakening
     if weak is None:
         return material(m, **{**options, **others})
-    options |= dict(
-        criticalSlip=weak.critical_slip,
-        weakening=weak.law,
-        weakenedFrictionAngle=math.atan(weak.friction),
-        weakenedTensileStrength=weak.tensile_strength,
-    )
+    options |= dict(criticalSlip=weak.critical_slip, weakening=weak.law, **_weakened_of(weak))
     return material(m, SlipWeakeningMat, **{**options, **others})
+
+
+def _strengths_of(m):
+    """Strengths of a section.Material as an NscdMat has them: {attribute: value}."""
+    return dict(
+        tensileStrength=m.tensile_strength,
+        residualTensileStrength=m.residual_tensile_strength,
+        frictionAngle=math.atan(m.friction),
+        residualFrictionAngle=math.atan(m.residual_friction),
+        rollingFriction=m.rolling_friction,
+        residualRollingFriction=m.residual_rolling_friction,
+    )
+
+
+def _weakened_of(weak):
+    """The same of what slip leaves, as a SlipWeakeningMat has it."""
+    return dict(weakenedFrictionAngle=math.atan(weak.friction), weakenedTensileStrength=weak.tensile_strength)
+
+
+@_strengths
+def set_strengths(m, present):
+    """Gives an NscdMat of the scene, ``present``, the strengths of the section.Material ``m``; contacts that exist take
+    them up by ``ContactDynamicsEngine.updateStrengths()``.
+    """
+    values = _strengths_of(m)
+    if m.slip_weakening is not None and isinstance(present, SlipWeakeningMat):
+        values |= _weakened_of(m.slip_weakening)
+    for name, value in values.items():
+        setattr(present, name, value)
 
 
 def disk(centre, radius, material, fixed=False, color=None):

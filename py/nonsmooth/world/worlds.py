@@ -114,6 +114,16 @@ class Hard:
         newton.gravity = gravity
         return scene.contact_dynamics().bond()
 
+    def set_strengths(self, pairs):
+        """Gives materials of the scene other strengths, and all contacts that exist too; bonds, forces and slip stay.
+        ``pairs``: (material of the scene, section.Material), a list.
+        """
+        from . import scene
+
+        for present, m in pairs:
+            scene.set_strengths(m, present)
+        scene.contact_dynamics().updateStrengths()
+
 
 @dataclass(frozen=True)
 class Soft:
@@ -206,6 +216,12 @@ class Soft:
             if m.bonded and self.model != "friction"
         )
         return made + soft.bond_walls([i for _, ids in groups for i in ids], fragile=not self.ductile)
+
+    def set_strengths(self, pairs):
+        """As :meth:`Hard.set_strengths`; ``pairs``: of all materials of the scene's disks and walls."""
+        from .soft import strengths
+
+        strengths.change(self, pairs)
 
 
 def check(world, kinds=(Hard, Soft)):

@@ -1,5 +1,20 @@
 """The table of mutants. A new one goes into the file of its subject; see tests/README.md."""
-from . import between, course, drawing, engines, impacts, laboratory, law, plane, results, shaking, solver, state, walls
+from . import (
+    between,
+    course,
+    drawing,
+    engines,
+    impacts,
+    laboratory,
+    law,
+    plane,
+    results,
+    safety,
+    shaking,
+    solver,
+    state,
+    walls,
+)
 
 MUTANTS = (
     law.MUTANTS
@@ -13,6 +28,7 @@ MUTANTS = (
     + course.MUTANTS
     + results.MUTANTS
     + shaking.MUTANTS
+    + safety.MUTANTS
     + laboratory.MUTANTS
     + drawing.MUTANTS
 )

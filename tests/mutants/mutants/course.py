@@ -60,7 +60,7 @@ MUTANTS = (
     mutant("course-dry", RULES, "state.settled + section.stages.dry", "state.settled", "there is no dry rest", "plain:test_course.py::test_settled"),
     mutant("course-resting", RULES, "seen.speed < stages.end.rest_fraction * s.speed_max", "seen.speed < stages.end.rest_fraction",
            "the speed at rest does not know the largest one", "plain:test_course.py::test_it_ends_when_it_has_rested"),
-    mutant("course-rest-hold", RULES, "_passed(seen, stages.end.rest_hold, since)", "_passed(seen, stages.end.rest_hold, s.moving)",
+    mutant("course-rest-hold", RULES, "passed(seen, stages.end.rest_hold, since)", "passed(seen, stages.end.rest_hold, s.moving)",
            "the rest counts from the beginning of motion", "plain:test_course.py::test_it_ends_when_it_has_rested"),
     mutant("course-tolerance", RULES, "flowing * numerics.tolerance_moving", "(1 - flowing) * numerics.tolerance_moving",
            "a slope at rest is solved loosely and one in motion tightly", "plain:test_course.py::test_the_tolerance_by_state_and_speed"),

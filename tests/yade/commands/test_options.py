@@ -69,6 +69,7 @@ FIRST = {
     "calibrate.py": ("--cohesion", 60e3, "--friction", 35),
     "column.py": ("--aspect", "1"),
     "sweep.py": ("--section", "jiufengershan", "--over", "seed=1,2"),
+    "factor_of_safety.py": ("--section", "jiufengershan"),
     "soak.py": ("--steps", 500),
 }
 SOFT = ("--world", "soft", "--stiffness", "1e9")
@@ -84,6 +85,7 @@ HOLDER = {  # what a command asks: a module or class, and its function
     "benchmark.py": (suite, "run"),
     "soak.py": (soak, "run"),
     "sweep.py": (campaigns, "sweep"),
+    "factor_of_safety.py": (campaigns, "factors_of_safety"),
     "lessons.py": (lessons, "run"),
     "paper.py": (paper_slopes, "run"),
     "readings.py": (readings, "run"),
@@ -97,7 +99,11 @@ OTHERS = {
     ("benchmark.py", "--scale"): (scale, "run"),
     ("jiufengershan.py", "--resume"): (experiment, "resume"),
     ("slope.py", "--resume"): (experiment, "resume"),
-    **{("sweep.py", word): (campaigns.Plan, "run") for word in ("--resume", "--threads")},
+    **{
+        (command, word): (campaigns.Plan, "run")
+        for command in ("sweep.py", "factor_of_safety.py")
+        for word in ("--resume", "--threads")
+    },
     ("sweep.py", "--plan"): (campaigns.Plan, "write"),
     ("sweep.py", "--run"): (campaigns, "run_one"),
     ("sweep.py", "--number"): (campaigns, "run_one"),
@@ -372,6 +378,35 @@ WHERE = {
         "--run": (("--run", "seed=2"), lambda a: a.words[1], "seed=2"),
         "--number": (("--number", 1), lambda a: a.words[1], 1),
         "--collect": (("--collect",), lambda a: str(a.words[0]), "{out}"),
+    },
+    "factor_of_safety.py": {
+        "--section": (("--section", "{files}/small.yaml"), lambda a: a.words[0].name, "small slope"),
+        "--over": (
+            ("--over", "materials.rock.friction=0.3,1e-1"),
+            lambda a: a.words[1],
+            {"materials.rock.friction": [0.3, 0.1]},
+        ),
+        "--seeds": (("--seeds", 7, 8), lambda a: a.words[1], {"seed": [7, 8]}),
+        "--rock": (("--rock", "{files}/stone.yaml"), made_of, {0.35}),
+        "--disks": (("--disks", 150), lambda a: sum(a.words[0].disk_counts()), pytest.approx(150, abs=2)),
+        "--seed": (("--seed", 5), lambda a: a.words[0].seed, 5),
+        "--water": (("--water", 0.25), lambda a: a.words[0].water.rate, 0.25),
+        "--critical-slip": (("--critical-slip", 2), lambda a: a.words[0].release_distance, 2.0),
+        "--mirror": (("--mirror",), lambda a: a.words[0].side, -1.0),
+        "--size": (("--size", 0.01), lambda a: a.words[0].disks.d_max, pytest.approx(0.04)),
+        "--table": (("--table", 12.5), lambda a: a.named["table"], 12.5),
+        "--divide": (("--divide", "friction,tension"), lambda a: a.named["quantities"], ["friction", "tension"]),
+        "--materials": (("--materials", "rock,dp"), lambda a: a.named["materials"], ["rock", "dp"]),
+        "--step": (("--step", 0.25), lambda a: a.named["step"], 0.25),
+        "--within": (("--within", 0.005), lambda a: a.named["within"], 0.005),
+        "--most": (("--most", 4), lambda a: a.named["most"], 4.0),
+        "--least": (("--least", 0.25), lambda a: a.named["least"], 0.25),
+        "--world": (SOFT, lambda a: a.named["world"]["name"], "soft"),
+        "--stiffness": (SOFT, lambda a: a.named["world"]["stiffness"], 1e9),
+        "--no-figures": (("--no-figures",), lambda a: a.named["figures"], False),
+        "--threads": (("--threads", 7), lambda a: a.words[1], 7),
+        "--resume": (("--threads", 7, "--resume"), lambda a: a.words[2], True),
+        "--out": (("--threads", 7), lambda a: str(a.words[0]), "{out}"),
     },
     "lessons.py": {
         "--out": ((), lambda a: str(a.words[1]), "{out}"),

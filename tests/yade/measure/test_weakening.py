@@ -114,7 +114,8 @@ def test_each_surface_of_a_section_that_weakens_has_its_column(name):
         assert {k: wall.name for k, wall in ground.weakening.items()} == {
             k: one.name for k, one in enumerate(made.weakening)
         }
-        assert {wall.name for wall in ground.weakening.values()} == set(lines)  # of those that are shipped
+        # slip surfaces all of them, in those that are shipped, and all of those but the block's, which does not weaken
+        assert {wall.name for wall in ground.weakening.values()} == (set(lines) if name != "priest" else set())
         assert all(np.array_equal(wall.vertices, lines[wall.name]) for wall in ground.weakening.values())
 
 

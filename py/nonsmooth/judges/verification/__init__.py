@@ -28,6 +28,7 @@ MODULES = (
     "strength_convergence",
     "slope_convergence",
     "collapse",
+    "safety",
     "avalanche",
     "paper",
 )

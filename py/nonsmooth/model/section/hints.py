@@ -29,7 +29,7 @@ HINTS = (
     Hint(
         "factors of safety, yield coefficients",
         "ky k_y kc yield_coefficient yield_acceleration critical_acceleration fs fos factor_of_safety safety_factor",
-        "this is a result and not an input: vary what fails the slope, with scripts/sweep.py --over materials.NAME.friction=..., or tilt the section, and see which runs stand",
+        "this is a result and not an input: scripts/factor_of_safety.py finds the factor of safety; for a yield coefficient tilt the section, and see which runs stand",
     ),
     Hint(
         "lines of the water table",

@@ -16,7 +16,7 @@ from yade.wrapper import ContactDynamicsEngine, NonsmoothTimeStepper, PorePressu
 from ...model import scales
 from ...world import scene, worlds
 
-__all__ = ["Slope", "build", "find", "hard", "is_hard", "order_of"]
+__all__ = ["Slope", "build", "find", "hard", "is_hard", "order_of", "set_strengths"]
 
 # A wall piece of this many mean diameters keeps its bounding box small and the pieces few.
 PIECE = 8.0
@@ -163,6 +163,17 @@ def interface_law(slope: Slope, interface):
 def is_hard(slope: Slope) -> bool:
     """Whether the disks of a built Slope are rigid."""
     return isinstance(slope.solver, ContactDynamicsEngine)
+
+
+def set_strengths(slope: Slope, materials, world=None):
+    """Gives walls, disks and interfaces of a built Slope, and all of its contacts, the strengths of ``materials``,
+    {name: section.Material}, which have those of the section's names; ``world``: that it was built in.
+    """
+    section = slope.section
+    pairs = [(slope.wall_material(wall.name), materials[wall.material]) for wall in section.walls]
+    pairs += [(O.materials[_label(layer, k)], materials[layer.material]) for k, layer in enumerate(section.layers)]
+    pairs += [(interface_law(slope, one), materials[one.material]) for one in section.interfaces]
+    (hard(section) if world is None else world).set_strengths(pairs)
 
 
 def find(section, walls, first_disk, count) -> Slope:

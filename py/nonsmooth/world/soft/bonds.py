@@ -26,7 +26,7 @@ from yade.wrapper import (
 
 from .parameters import SoftError, refuse_closing
 
-__all__ = ["bond", "bond_walls", "bonded", "weaken"]
+__all__ = ["bond", "bond_walls", "bonded", "set_thresholds", "weaken"]
 
 MATERIALS = {"cohesion_moment": CohFrictMat, "jcfpm": JCFpmMat}
 
@@ -181,18 +181,27 @@ def _functor(e):
 
 
 def _make(e, contact, length, functor):
-    m, p = e.material, contact.phys
-    tension, shear, torque = e.thresholds(length)
+    p = contact.phys
     if functor is None:
         p.isCohesive = True
-        p.FnMax, p.FsMax, p.tanFrictionAngle = tension, shear, m.friction
+        set_thresholds(e, p, length)
         for k in (contact.id1, contact.id2):  # YADE divides by it when bonds break
             O.bodies[k].state.nbInitBonds += 1
         return
     functor.setCohesion(contact, True, False)
-    p.normalAdhesion, p.shearAdhesion, p.rollingAdhesion = tension, shear, torque
-    p.tangensOfFrictionAngle, p.maxRollPl = m.friction, m.rolling_friction * length
+    set_thresholds(e, p, length)
     p.unp = min(contact.geom.penetrationDepth, 0.0)
+
+
+def set_thresholds(e, physics, length):
+    """Gives the physics of a bond of length ℓ [m] its thresholds, see :func:`bond`."""
+    m, p = e.material, physics
+    tension, shear, torque = e.thresholds(length)
+    if isinstance(p, JCFpmPhys):
+        p.FnMax, p.FsMax, p.tanFrictionAngle = tension, shear, m.friction
+    else:
+        p.normalAdhesion, p.shearAdhesion, p.rollingAdhesion = tension, shear, torque
+        p.tangensOfFrictionAngle, p.maxRollPl = m.friction, m.rolling_friction * length
 
 
 def bonded(physics):

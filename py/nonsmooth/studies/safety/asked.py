@@ -1,0 +1,156 @@
+"""What is asked of a search for the factor of safety, as checked data. Needs no YADE."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import asdict, dataclass, field, replace
+
+from ...course import strength_reduction
+from ...errors import UserError
+from ...model import materials as model_materials, scales
+from ...model.materials import QUANTITIES, REDUCED
+from ...model.section import Section, data as section_data
+from ...system import checks, keys
+from ...world import worlds
+
+__all__ = ["Asked", "SafetyError", "standing"]
+
+RISE = 2.0  # time in which the table rises to its height, in times of stillness of a slope
+
+
+class SafetyError(UserError, ValueError):
+    """A search for the factor of safety that cannot be made; the message says why and what helps."""
+
+
+@dataclass(frozen=True)
+class Asked:
+    """A search. ``section``: the Section; ``quantities``: some of :data:`.materials.QUANTITIES`, which are divided;
+    ``materials``: names of the section's materials in which they are, None: in all; ``world``: {} or {"name": "hard"}
+    is rigid disks, {"name": "soft", "stiffness": …} springs, with other fields of :class:`.worlds.Soft` but the
+    diameters; ``numbers``: of :func:`.strength_reduction.rules`, ``step``, ``within``, ``most``, ``least``.
+
+    Raises SafetyError, StrengthReductionError, WorldError or SoftError, naming it, for what cannot be used, and
+    SafetyError for a water table that never comes to stand (see :func:`standing`).
+    """
+
+    section: Section
+    quantities: tuple = REDUCED
+    materials: tuple | None = None
+    world: dict = field(default_factory=dict)
+    numbers: dict = field(default_factory=dict)
+
+    def __post_init__(self):
+        section = self.section
+        if not isinstance(section, Section):
+            remedy = "give a Section, as section.load('circle') returns one"
+            raise SafetyError(f"section {checks.shown(section)}: {remedy}")
+        self._set("quantities", QUANTITIES, self.quantities)
+        if self.materials is not None:
+            self._set("materials", tuple(section.materials), self.materials)
+        for name, given in (("numbers", self.numbers), ("world", self.world)):
+            if not isinstance(given, Mapping):
+                raise SafetyError(f"{name} {checks.shown(given)}: give a dictionary, {{name: value}}")
+        known = ("step", "within", "most", "least")
+        for name in self.numbers:
+            if name not in known:
+                raise SafetyError(f"{name}: no number of a search; give some of {', '.join(known)}")
+        self.rules()
+        self.make_world()
+        water, hold = section.water, section.stages.water_hold
+        if water is not None and water.rate > 0 and isinstance(hold, str):
+            raise SafetyError(
+                f"{section.source}: stages.water.hold {hold}: the table rises without end, and no slope rests under a "
+                "load that grows; give a height [m] there, or --table, 0 for a dry slope"
+            )
+
+    def _set(self, name, known, given):
+        remedy = f"give some of {', '.join(known)}, each once"
+        if isinstance(given, str) or not isinstance(given, (list, tuple)) or not given:
+            raise SafetyError(f"{name} {checks.shown(given)}: {remedy}")
+        for one in given:
+            if one not in known:
+                raise SafetyError(f"{name}: {checks.shown(one)}: {remedy}")
+        if len(set(given)) < len(given):
+            raise SafetyError(f"{name} {', '.join(given)}: {remedy}")
+        object.__setattr__(self, name, tuple(given))
+
+    @property
+    def hard(self) -> bool:
+        """Whether contacts are rigid."""
+        return self.world.get("name", "hard") == "hard"
+
+    def make_world(self):
+        """The :class:`.worlds.Soft`, or None for rigid disks with the section's numerics."""
+        name = self.world.get("name", "hard")
+        more = {key: value for key, value in self.world.items() if key != "name"}
+        if name not in ("hard", "soft"):
+            raise SafetyError(f"world {checks.shown(name)}: give hard or soft")
+        if name == "hard":
+            if more:
+                raise SafetyError(
+                    f"{', '.join(more)}: rigid disks have no such value; leave it out, or take world soft"
+                )
+            return None
+        checks.number("stiffness", more.get("stiffness"), SafetyError, "give Young's modulus [Pa], above 0", above=0)
+        s = self.section
+        try:
+            made = worlds.Soft(diameter=(s.smallest, s.largest), verlet=-s.numerics.verlet_distance, **more)
+        except TypeError:
+            raise SafetyError(f"world {checks.shown(more)}: give fields of worlds.Soft but the diameters") from None
+        for layer in s.layers:
+            made.equivalent(s.materials[layer.material])  # refuses what no soft contact has
+        if s.interfaces:
+            made.interface(None, None, None)
+        return made
+
+    def rules(self):
+        """The :class:`.strength_reduction.Rules`."""
+        return strength_reduction.rules(self.section, scales.of(self.section), **self.numbers)
+
+    def strengths(self, factor) -> dict:
+        """The materials of the section with what is asked for divided by a ``factor``: {name: section.Material}."""
+        chosen = self.section.materials if self.materials is None else self.materials
+        return {
+            name: model_materials.divided(m, factor, self.quantities) if name in chosen else m
+            for name, m in self.section.materials.items()
+        }
+
+    @property
+    def key(self) -> str:
+        """What must agree between a checkpoint and the search that goes on from it."""
+        s = self.section
+        told = {
+            "section": section_data.plain(s),
+            "seed": s.seed,
+            "quantities": list(self.quantities),
+            "materials": None if self.materials is None else list(self.materials),
+            "world": self.world,
+            "rules": asdict(self.rules()),
+        }
+        return keys.key_of(told)
+
+
+def standing(section, table=None) -> tuple[Section, str | None]:
+    """The Section with a water table that comes to stand, at the height ``table`` [m] where that is given, and a note
+    where this is not what the section says. Without one a table that would rise without end never rises.
+
+    Raises SafetyError for a ``table`` where the section has no water, and for what is no height.
+    """
+    if section.water is None:
+        if table:
+            raise SafetyError(
+                f"--table {table:g}: {section.source} has no water; add the key `water` to it, or leave --table out"
+            )
+        return section, None
+    note = None
+    if table is None:
+        if section.water.rate == 0 or not isinstance(section.stages.water_hold, str):
+            return section, None
+        table = 0.0
+        endless = "its water table rises without end, under which no slope rests"
+        note = f"{section.source}: {endless}: dry; --table METRES lets it stand at a height"
+    checks.number("--table", table, SafetyError, "give the height of the water table [m], 0 or more", least=0)
+    rise = RISE * scales.of(section).still_seconds
+    points = [[0.0, 0.0], [float(f"{rise:.3g}"), float(table)]] if table else [[0.0, 0.0]]
+    made = section.with_values({"water.table": {"points": points}, "stages.water.hold": "never"})
+    return replace(made, source=section.source), note
