@@ -64,6 +64,7 @@ OTHERS = (
     "ways-to-solve",
     "sweeps-by-thickness",
     "collapse-of-rounded-places",
+    "priests-block",
     "paper",
 )
 
