@@ -35,7 +35,7 @@ __all__ = [
     "STABLE",
     "STANDS",
     "Rules",
-    "State",
+    "SearchState",
     "StrengthReductionError",
     "after",
     "factor_of_safety",
@@ -73,7 +73,7 @@ class Rules:
 
 
 @dataclass
-class State:
+class SearchState:
     """Where a search stands, all of which goes into checkpoints.
 
     ``factor``: of the trial that comes or goes on; ``stable``, ``failed``: largest factor at which the slope stood, and
@@ -120,7 +120,7 @@ def rules(section, scales, step=0.1, within=0.02, most=10.0, least=0.05) -> Rule
 
 
 def judged(state, seen, rules):
-    """The State after a row of a trial, and what became of the trial: (:data:`STABLE` or :data:`FAILED`, why), or None
+    """The state after a row of a trial, and what became of the trial: (:data:`STABLE` or :data:`FAILED`, why), or None
     while it goes on. ``seen``: a :class:`.slope.Seen` whose ``way`` and ``broken`` count from the trial's beginning.
     """
     if seen.speed >= rules.moving_speed:
@@ -150,7 +150,7 @@ def loaded(state):
 
 
 def after(state, said, rules, **told):
-    """The State after a trial that has ended: with the factor of the next one, or with an outcome. ``said``: verdict
+    """The state after a trial that has ended: with the factor of the next one, or with an outcome. ``said``: verdict
     and why, as :func:`judged` and :func:`loaded` return them; ``told``: more of the trial, for ``trials``.
     """
     verdict, why = said

@@ -27,7 +27,7 @@ def search(critical, loads=None, **numbers):
     """The State in which a search of a slope ends that fails at ``critical`` or more; ``loads``: the factor from which
     on it fails as it is loaded, which may be another.
     """
-    chosen, state = rules(**numbers), reduction.State()
+    chosen, state = rules(**numbers), reduction.SearchState()
     loads = critical if loads is None else loads
     while state.outcome is None:
         fails = state.factor >= (loads if state.stable is None else critical)
@@ -85,7 +85,7 @@ def test_a_slope_that_never_stands_says_so():
 
 
 def test_the_share_done_grows_to_one():
-    chosen, state, shares = rules(), reduction.State(), []
+    chosen, state, shares = rules(), reduction.SearchState(), []
     while state.outcome is None:
         shares.append(reduction.share(state, chosen))
         fails = state.factor >= 1.7
@@ -97,7 +97,7 @@ def test_the_share_done_grows_to_one():
 # ---- a trial ------------------------------------------------------------------------------------
 def trial(speed, way=lambda t: 0.0, broken=lambda t: 0.0, **numbers):
     """What became of a trial with this history, and when [s]."""
-    chosen, state, k = rules(**numbers), reduction.State(began=3.0), 0
+    chosen, state, k = rules(**numbers), reduction.SearchState(began=3.0), 0
     while True:
         k += 1
         time = 0.1 * k

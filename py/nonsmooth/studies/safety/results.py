@@ -34,7 +34,7 @@ def says(summary) -> str:
 
 def summarise(folder, asked, state) -> dict:
     """Writes ``summary.json`` of what has been done, and returns it. ``asked``: an :class:`.asked.Asked`; ``state``:
-    fields of :class:`.strength_reduction.State`, a dictionary.
+    fields of :class:`.strength_reduction.SearchState`, a dictionary.
     """
     folder, s = Path(folder), asked.section
     verdict = state["outcome"] or "not over"

@@ -39,7 +39,7 @@ class Search(driver.Course):
     def __init__(self, asked, folder, told, progress):
         self.asked, self.folder, self.section, self.progress = asked, Path(folder), asked.section, progress
         self.rules, self.scales, self.world = asked.rules(), scales.of(asked.section), asked.make_world()
-        self.state = reduction.State(**told["state"])
+        self.state = reduction.SearchState(**told["state"])
         self.series = records.SeriesWriter(
             self.folder / results.SERIES, COLUMNS, resume_from=told["series"], overwrite=True
         )
@@ -221,7 +221,7 @@ def run(asked, folder, progress=lambda share, doing: None) -> dict:
     folder = Path(folder)
     if checkpoints.exists(folder):
         told = checkpoints.read(folder, asked.key, SafetyError)
-        state = reduction.State(**told["state"])
+        state = reduction.SearchState(**told["state"])
     else:
         state, told = _loaded(asked, folder, progress)
     if state.outcome is None:
@@ -232,8 +232,8 @@ def run(asked, folder, progress=lambda share, doing: None) -> dict:
 
 
 def _loaded(asked, folder, progress):
-    """Loads the slope until it stands at some factor: the State then, and what a :class:`Search` begins with."""
-    state, rules = reduction.State(), asked.rules()
+    """Loads the slope until it stands at some factor: the SearchState then, and what a :class:`Search` begins with."""
+    state, rules = reduction.SearchState(), asked.rules()
     section_data.write(asked.section, _made(folder) / section_data.FILE)
     while state.stable is None and state.outcome is None:
         factor = state.factor
