@@ -19,6 +19,7 @@ from .runouts import runouts
 from .scene import draw
 from .sweep import means
 from .toe import toe, toes
+from .water import pore_pressures, seepage
 from .weakening import weakening
 
 __all__ = [
@@ -44,4 +45,6 @@ __all__ = [
     "contact_law",
     "bond_zone",
     "water_forces",
+    "seepage",
+    "pore_pressures",
 ]
