@@ -1,5 +1,6 @@
 """Water in the ground: pressure heads, flow lines, heads and the free surface of a seepage, and pressures in time."""
 
+import matplotlib
 import numpy as np
 from matplotlib.lines import Line2D
 from matplotlib.tri import Triangulation
@@ -20,7 +21,8 @@ TIMES = (
     lambda v: v is None or isinstance(v, (list, tuple, np.ndarray)) and len(v) > 0,
     "give a list of times [s], or None for those of the field's states",
 )
-COLOURS, LEVELS, HEADS = "Blues", 12, 11
+COLOURS = "Blues"
+FEWEST, HEADS = 6, 11  # steps of colours, and lines of equal head with both ends
 WIDTH, LEAST, MOST = 8.0, 1.6, 7.0  # inches of a picture, and its smallest and largest height
 ACROSS = 160  # places at which flow lines are looked for, along the longer side
 
@@ -35,15 +37,14 @@ def seepage(result, section=None, path=None, pdf=False):
     """
     mesh = result.mesh
     fig, ax, triangles = _body(mesh, section)
-    heads = np.maximum(result.pressure_head, 0)
-    drawn = _fill(ax, triangles, heads, heads.max())
+    drawn = _fill(ax, triangles, result.pressure_head, result.pressure_head.max())
     fig.colorbar(drawn, ax=ax, shrink=0.8, label="pressure head $p/γ_w$ [m]")
     still = np.ptp(result.head) <= 1e-9 * max(np.abs(result.head).max(), 1e-300)
     handles = []
     if not still:
         levels = np.linspace(result.head.min(), result.head.max(), HEADS)[1:-1]
-        wet = np.where(result.wet < 0.5, True, False)
-        shown = Triangulation(*mesh.nodes.T, mesh.triangles, mask=wet) if not wet.all() else triangles
+        dry = result.wet < 0.5
+        shown = Triangulation(*mesh.nodes.T, mesh.triangles, mask=None if dry.all() else dry)
         ax.tricontour(shown, result.head, levels, colors=style.LINES["grey"], linewidths=0.8, linestyles=":")
         _flow_lines(ax, result)
         handles = [
@@ -67,7 +68,7 @@ def pore_pressures(field, times=None, section=None, path=None, pdf=False):
     """Pore pressures at several times, one panel below the other, in one scale of colours.
 
     ``field``: a :class:`~nonsmooth.water.fields.MeshField`; ``times`` [s]: those of its states where None; ``section``:
-    as of :func:`seepage`. The edge of what is wet is drawn thick.
+    as of :func:`seepage`. The free surface is drawn thick.
     """
     times = field.times if times is None else list(times)
     states = [field.at(time) for time in times]
@@ -76,7 +77,7 @@ def pore_pressures(field, times=None, section=None, path=None, pdf=False):
     for ax, time, state in zip(np.atleast_1d(panels), times, states):
         drawn = _fill(ax, triangles, state / 1e3, top / 1e3)
         if 0 < np.count_nonzero(state > 0) < len(state):
-            ax.tricontour(triangles, state, [1e-6 * top], colors=style.WATER, linewidths=2.0)
+            ax.tricontour(triangles, state, [0.0], colors=style.WATER, linewidths=2.2)
         ax.set_title(f"t = {style.seconds(time, max(np.abs(times)))}", loc="left")
     fig.colorbar(drawn, ax=panels, shrink=0.8, label="pore pressure [kPa]")
     style.scale_bar(np.atleast_1d(panels)[-1])
@@ -101,21 +102,32 @@ def _body(mesh, section, count=1):
 
 
 def _fill(ax, triangles, values, top):
-    """Colours of values from 0 to ``top``; what is 0 stays white."""
-    levels = np.linspace(0, top, LEVELS + 1) if top > 0 else np.linspace(0, 1, LEVELS + 1)
-    return ax.tricontourf(triangles, np.maximum(values, 0), levels, cmap=COLOURS, zorder=1)
+    """Colours of values from 0 to at least ``top``, in round steps; what is below 0 stays white."""
+    step = style.nice(max(top, 1e-9) / FEWEST)
+    levels = step * np.arange(int(np.ceil(max(top, 1e-9) / step - 1e-9)) + 1)
+    colours = matplotlib.colormaps[COLOURS](np.linspace(0.12, 0.9, len(levels) - 1))
+    return ax.tricontourf(triangles, values, levels, colors=colours, zorder=1)
 
 
 def _flow_lines(ax, result):
     x0, y0, x1, y1 = result.mesh.bounds
-    step = max(x1 - x0, y1 - y0) / ACROSS
-    x, y = (np.linspace(a, b, max(int(round((b - a) / step)), 8) + 1) for a, b in ((x0, x1), (y0, y1)))
+    nx, ny = (max(8, round(ACROSS * length / max(x1 - x0, y1 - y0))) for length in (x1 - x0, y1 - y0))
+    # off the borders, along which lines would lie one upon another
+    x, y = (a + (b - a) * (np.arange(n) + 0.5) / n for a, b, n in ((x0, x1, nx), (y0, y1, ny)))
     points = np.column_stack([v.ravel() for v in np.meshgrid(x, y)])
     where = result.mesh.locate(points)
     inside = (where >= 0) & (result.wet[where] > 0.5)
     flux = np.where(inside[:, None], result.flux[where], np.nan).reshape(len(y), len(x), 2)
     if np.nanmax(np.abs(flux), initial=0) > 0:
         lines = ax.streamplot(
-            x, y, flux[..., 0], flux[..., 1], density=0.9, color=style.LINES["orange"], linewidth=0.8, arrowsize=0.7
+            x,
+            y,
+            flux[..., 0],
+            flux[..., 1],
+            density=0.7,
+            broken_streamlines=False,
+            color=style.LINES["orange"],
+            linewidth=0.8,
+            arrowsize=0.7,
         )
         lines.lines.set_zorder(4)

@@ -1,8 +1,9 @@
 """Pore pressure in the plane and in time, as plain data: on the nodes of triangles, or below a phreatic line.
 
 Both kinds of field answer the same questions, ``pressure(points, time)`` and ``gradient(points, time)``. Between two
-states a pressure, or the height of a line, is linear in time; before the first and after the last it stays. Pressures
-are not below 0. What lies outside a field is refused, or dry where the caller says so.
+states a pressure, or the height of a line, is linear in time; before the first and after the last it stays. Where the
+pressure is not above 0 the ground is dry: there is no pressure and no gradient. What lies outside a field is refused,
+or dry where the caller says so.
 """
 
 from __future__ import annotations
@@ -31,8 +32,8 @@ class MeshField:
     """Pore pressures at the nodes of a mesh, linear in its triangles.
 
     ``mesh``: a :class:`~nonsmooth.water.mesh.Mesh`; ``times``: of the states [s], rising, (t,); ``pressures`` [Pa], (t,
-    n), 0 or more. Raises FieldError for other shapes, times that do not rise, and pressures that are not finite or
-    below 0.
+    n); below 0 in dry ground, so that the free surface lies where they pass through 0, within a triangle and between
+    two times. Raises FieldError for other shapes, times that do not rise, and pressures that are not finite.
     """
 
     mesh: Mesh
@@ -50,18 +51,18 @@ class MeshField:
             raise FieldError(
                 f"pressures of shape {pressures.shape}: give {expected}, a pressure [Pa] at each time for each node"
             )
-        bad = np.argwhere(~(np.isfinite(pressures) & (pressures >= 0)))
+        bad = np.argwhere(~np.isfinite(pressures))
         if len(bad):
             (k, n), (x, y) = bad[0], self.mesh.nodes[bad[0, 1]]
             raise FieldError(
-                f"pressure {pressures[k, n]:g} Pa at ({x:.6g}, {y:.6g}) m, t = {times[k]:g} s: give finite pressures "
-                "of 0 or more; suction is 0"
+                f"pressure {pressures[k, n]:g} Pa at ({x:.6g}, {y:.6g}) m, t = {times[k]:g} s: give finite "
+                "pressures, below 0 where it is dry"
             )
         object.__setattr__(self, "times", times)
         object.__setattr__(self, "pressures", pressures)
 
     def at(self, time) -> np.ndarray:
-        """Pressures [Pa] at the nodes at a time [s], (n,)."""
+        """Pressures [Pa] at the nodes at a time [s], (n,), below 0 in dry ground."""
         first, share = state_at(self.times, time)
         return _between(self.pressures, first, share)
 
@@ -71,17 +72,19 @@ class MeshField:
         ``outside``: "refuse" raises FieldError for a point outside the mesh, "dry" gives 0 there.
         """
         points, where = self._located(points, outside)
-        return np.where(where >= 0, self.mesh.at(self.at(time), points, where), 0.0)
+        return np.where(where >= 0, np.maximum(self.mesh.at(self.at(time), points, where), 0.0), 0.0)
 
     def gradient(self, points, time=0.0, outside="refuse") -> np.ndarray:
-        """∇p [Pa/m] at ``points`` (k, 2) [m], that of the triangle in which each lies, (k, 2); ``outside``: as of
-        :meth:`pressure`.
+        """∇p [Pa/m] at ``points`` (k, 2) [m], that of the triangle in which each lies, 0 where it is dry, (k, 2);
+        ``outside``: as of :meth:`pressure`.
         """
-        _, where = self._located(points, outside)
-        return np.where(where[:, None] >= 0, self.mesh.gradient(self.at(time))[where], 0.0)
+        points, where = self._located(points, outside)
+        values = self.at(time)
+        wet = (where >= 0) & (self.mesh.at(values, points, where) > 0)
+        return np.where(wet[:, None], self.mesh.gradient(values)[where], 0.0)
 
     def gradients(self, time=0.0) -> np.ndarray:
-        """∇p [Pa/m] of all triangles at a ``time`` [s], (m, 2)."""
+        """∇p [Pa/m] of all triangles at a ``time`` [s], (m, 2), as if none were dry."""
         return self.mesh.gradient(self.at(time))
 
     def require(self, points, what="points"):
@@ -188,11 +191,14 @@ class PhreaticLine:
         return np.where(deep[:, None] > 0, grow, 0.0)
 
     def on(self, mesh, outside="refuse") -> MeshField:
-        """The same as a :class:`MeshField`, its pressures at the nodes of a ``mesh``: near the line, where the gradient
-        jumps, to the length of an edge.
+        """The same as a :class:`MeshField`, its pressures at the nodes of a ``mesh``: exact for a straight line, and
+        near the vertices of others to the length of an edge.
         """
-        times = self.times
-        return MeshField(mesh, times, np.array([self.pressure(mesh.nodes, t, outside) for t in times]))
+        pressures = []
+        for time in self.times:
+            deep, slope = self._below(mesh.nodes, time, outside)
+            pressures.append(self._weight(slope) * np.nan_to_num(deep, nan=0.0))
+        return MeshField(mesh, self.times, pressures)
 
     def _below(self, points, time, outside):
         points = array("points", points, 2, FieldError)
@@ -211,7 +217,7 @@ def of_seepage(results, times=(0.0,), unit_weight=UNIT_WEIGHT) -> MeshField:
     results = list(results) if isinstance(results, (list, tuple)) else [results]
     if not results or any(one.mesh is not results[0].mesh for one in results):
         raise FieldError(f"{len(results)} results: give one or more on the same mesh")
-    return MeshField(results[0].mesh, times, [one.pressure(unit_weight) for one in results])
+    return MeshField(results[0].mesh, times, [unit_weight * one.pressure_head for one in results])
 
 
 def state_at(times, time):
