@@ -1,5 +1,5 @@
 """The table of mutants. A new one goes into the file of its subject; see tests/README.md."""
-from . import between, course, drawing, engines, impacts, laboratory, law, plane, results, solver, state, walls
+from . import between, course, drawing, engines, impacts, laboratory, law, plane, results, solver, state, walls, water
 
 MUTANTS = (
     law.MUTANTS
@@ -14,6 +14,7 @@ MUTANTS = (
     + results.MUTANTS
     + laboratory.MUTANTS
     + drawing.MUTANTS
+    + water.MUTANTS
 )
 
 #: Mutants that no test sees, and why that is left so: {name: reason}.

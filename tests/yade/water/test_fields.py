@@ -195,6 +195,16 @@ def test_a_field_that_is_written_reads_back_and_has_the_same_bytes_each_time(tmp
     assert sorted(p.name for p in tmp_path.iterdir()) == ["a.h5", "b.hdf5"]
 
 
+def test_idle_nodes_of_an_hdf5_file_take_their_pressures_along(tmp_path):
+    hdf5(
+        tmp_path / "a.h5",
+        nodes=np.vstack(([[-9, -9]], MESH.nodes)),
+        triangles=MESH.triangles + 1,
+        pressure=[np.append(77.0, linear(*MESH.nodes.T))],
+    )
+    assert field_files.read(tmp_path / "a.h5").pressure(POINTS) == pytest.approx(linear(*POINTS.T), rel=1e-12)
+
+
 def test_pressures_on_a_grid_in_hdf5(tmp_path):
     x, y = np.linspace(0, 4, 5), np.linspace(0, 3, 4)
     with h5py.File(tmp_path / "grid.h5", "w") as file:

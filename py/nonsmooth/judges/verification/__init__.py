@@ -29,6 +29,7 @@ MODULES = (
     "collapse",
     "avalanche",
     "paper",
+    "water",
 )
 
 
