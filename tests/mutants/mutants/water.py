@@ -14,7 +14,7 @@ MUTANTS = (
            MESHES + "::test_a_mesh_of_arrays_is_turned_and_rid_of_idle_nodes"),
     mutant("water-mesh-diagonal", MESH, "rising = ((i + j) % 2 == 0)[:, None]", "rising = (i >= 0)[:, None]", "a grid is not its own mirror image",
            MESHES + "::test_a_grid_covers_its_rectangle_and_is_its_own_mirror_image"),
-    mutant("water-locate-box", MESH, "(points - (x0, y0)) / wide", "points / wide", "points are looked for from the origin", DISKS, MESHES),
+    mutant("water-locate-box", MESH, "(points - (x0, y0)) / wide", "points / wide", "points are looked for from the origin", MESHES + "::test_each_point_is_found_in_its_triangle"),
     mutant("water-mesh-joint", MESHER, "chain += [a, *on[np.argsort(along[on], kind=\"stable\")]]", "chain += [a]", "a corner on a neighbour's edge is no node of it",
            MESHES + "::test_layers_that_touch_have_common_nodes"),
     mutant("water-mesh-own", MESHER, '"GMSH_HOME": folder, "HOME": folder', '"FOLDER": folder', "a person's own options change the mesh",

@@ -207,9 +207,10 @@ def test_rain_falls_on_the_horizontal_and_inflow_goes_through_the_line():
 
 
 def test_an_artesian_base_has_its_pressure_everywhere_and_the_body_a_linear_one():
-    mesh = crumpled(6, 3, 8, 6)
-    result = seepage.solve(mesh, 2e-5, [PressureHead([(0, 0), (6, 0)], 4.5), SeepageFace([(0, 3), (6, 3)])])
-    y = mesh.nodes[:, 1]
+    square = crumpled(6, 3, 8, 6)
+    mesh = Mesh.of(square.nodes + (0, 20), square.triangles)
+    result = seepage.solve(mesh, 2e-5, [PressureHead([(0, 20), (6, 20)], 4.5), SeepageFace([(0, 23), (6, 23)])])
+    y = square.nodes[:, 1]
     assert result.pressure_head == pytest.approx(4.5 * (1 - y / 3), abs=2e-4 * 4.5)  # the face's κ is 1e4 times k/size
     assert result.through == pytest.approx(2e-5 * 6 * (4.5 - 3) / 3, rel=1e-3)
 
