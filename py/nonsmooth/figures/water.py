@@ -2,10 +2,13 @@
 
 import matplotlib
 import numpy as np
+from matplotlib.collections import LineCollection
 from matplotlib.lines import Line2D
 from matplotlib.tri import Triangulation
 
+from ..model import geometry
 from ..system import checks
+from ..water import phreatic
 from ..water.fields import MeshField
 from . import given, style
 
@@ -24,6 +27,7 @@ TIMES = (
 COLOURS = "Blues"
 FEWEST, HEADS = 6, 11  # steps of colours, and lines of equal head with both ends
 WIDTH, LEAST, MOST = 8.0, 1.6, 7.0  # inches of a picture, and its smallest and largest height
+FLOW_LINES = 12
 ACROSS = 160  # places at which flow lines are looked for, along the longer side
 
 
@@ -33,7 +37,7 @@ def seepage(result, section=None, path=None, pdf=False):
     """The pressure head p/γ_w in colours, lines of equal head (dotted), flow lines, and the free surface (thick).
 
     ``result``: a :class:`~nonsmooth.water.seepage.Seepage`; ``section``: a Section, whose layers are drawn over it.
-    Flow lines are drawn where the ground is wet; where they are close is no measure of flow.
+    Flow lines begin on the line of middle head: between two of them the same flows across it.
     """
     mesh = result.mesh
     fig, ax, triangles = _body(mesh, section)
@@ -96,8 +100,9 @@ def _body(mesh, section, count=1):
         for layer in section.layers if section is not None else ():
             ring = np.vstack((layer.points, layer.points[:1]))
             ax.plot(*ring.T, color=style.INK, lw=0.8, zorder=5)
-        for edge in mesh.nodes[mesh.border] if section is None else ():
-            ax.plot(*edge.T, color=style.INK, lw=0.8, zorder=5)
+        if section is None:
+            rim = LineCollection(mesh.nodes[mesh.border], colors=style.INK, linewidths=0.8, capstyle="round", zorder=5)
+            ax.add_collection(rim, autolim=False)
     return fig, panels, Triangulation(*mesh.nodes.T, mesh.triangles)
 
 
@@ -118,16 +123,35 @@ def _flow_lines(ax, result):
     where = result.mesh.locate(points)
     inside = (where >= 0) & (result.wet[where] > 0.5)
     flux = np.where(inside[:, None], result.flux[where], np.nan).reshape(len(y), len(x), 2)
-    if np.nanmax(np.abs(flux), initial=0) > 0:
+    places = _equal_flows(result)
+    places = places[(places >= (x[0], y[0])).all(axis=1) & (places <= (x[-1], y[-1])).all(axis=1)]
+    if len(places):
         lines = ax.streamplot(
             x,
             y,
             flux[..., 0],
             flux[..., 1],
-            density=0.7,
+            start_points=places,
             broken_streamlines=False,
             color=style.LINES["orange"],
             linewidth=0.8,
             arrowsize=0.7,
         )
         lines.lines.set_zorder(4)
+
+
+def _equal_flows(result):
+    """Places (k, 2) on the line of middle head between which flows the same."""
+    middle = 0.5 * (result.head.min() + result.head.max())
+    across = phreatic.lines(result.mesh, result.head - middle)
+    begin, end = geometry.pieces(across) if across else (np.zeros((0, 2)), np.zeros((0, 2)))
+    where = result.mesh.locate(0.5 * (begin + end))
+    way = end - begin
+    flow = np.abs(way[:, 0] * result.flux[where, 1] - way[:, 1] * result.flux[where, 0])
+    flow = np.where((where >= 0) & (result.wet[where] > 0.5), flow, 0.0)
+    total = np.concatenate(([0.0], np.cumsum(flow)))
+    if not total[-1] > 0:
+        return np.zeros((0, 2))
+    wanted = total[-1] * (np.arange(FLOW_LINES) + 0.5) / FLOW_LINES
+    piece = np.searchsorted(total, wanted, side="right") - 1
+    return begin[piece] + ((wanted - total[piece]) / flow[piece])[:, None] * way[piece]

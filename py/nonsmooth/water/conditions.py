@@ -121,7 +121,10 @@ def apply(mesh, conditions) -> Applied:
     fixed, head, face, inflow = np.zeros(count, bool), np.zeros(count), np.zeros(count), np.zeros(count)
     owner, rained = np.full(len(border), -1), np.full(len(border), -1)
     open_air = np.zeros(len(border), bool)
-    conditions = list(conditions)
+    if not isinstance(conditions, (list, tuple)):
+        raise ConditionError(
+            f"conditions {checks.shown(conditions)}: give a list of Reservoir, Head, SeepageFace, Rain, …"
+        )
     y = mesh.nodes[:, 1]
     along = np.diff(mesh.nodes[border], axis=1)[:, 0]
     length = geometry.distance(*along.T)

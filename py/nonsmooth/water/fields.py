@@ -41,6 +41,8 @@ class MeshField:
     pressures: np.ndarray
 
     def __post_init__(self):
+        if not isinstance(self.mesh, Mesh):
+            raise FieldError(f"mesh {checks.shown(self.mesh)}: give a Mesh, as mesh.grid(...) makes one")
         times = _times(self.times)
         try:
             pressures = np.array(self.pressures, float)

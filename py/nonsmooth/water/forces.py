@@ -49,6 +49,8 @@ def on_disks(
     ``pore_water``: see above, with ``unit_weight`` γ_w [N/m³]; ``outside``: what becomes of disks outside the field,
     "refuse" or "dry". Raises ForceError, and FieldError as the field.
     """
+    if not hasattr(field, "gradient") or not hasattr(field, "pressure"):
+        raise ForceError(f"field {checks.shown(field)}: give a MeshField or a PhreaticLine, as fields has them")
     x, y, r = (np.asarray(v, float).ravel() for v in (x, y, r))
     if not len(x) == len(y) == len(r) or not np.isfinite(np.concatenate((x, y, r))).all() or not np.all(r > 0):
         raise ForceError(

@@ -46,8 +46,8 @@ def triangulate(polygons, size, points=(), names=()) -> Mesh:
     crosses itself or overlaps another, for sizes that are not above 0 or ask for too many triangles, for a point that
     lies on no border, and where Gmsh is not there or fails.
     """
-    if not len(polygons):
-        raise MeshError("polygons []: give one or more, each with three vertices or more [m]")
+    if not isinstance(polygons, (list, tuple)) or not polygons:
+        raise MeshError(f"polygons {checks.shown(polygons)}: give one or more, each with three vertices or more [m]")
     names = tuple(names) or tuple(f"polygon {k}" for k in range(len(polygons)))
     rings = [_ring(vertices, name) for vertices, name in zip(polygons, names)]
     sizes = [size] * len(rings) if np.ndim(size) == 0 else list(size)
@@ -62,7 +62,7 @@ def triangulate(polygons, size, points=(), names=()) -> Mesh:
     _refuse_overlaps(rings, names)
     corners = np.vstack(rings)
     tolerance = CLOSE * math.dist(corners.min(axis=0), corners.max(axis=0))
-    points = np.asarray(points, float).reshape(-1, 2)
+    points = array("points", points, 2) if len(points) else np.zeros((0, 2))
     away = geometry.nearest(points, *geometry.pieces([np.vstack((r, r[:1])) for r in rings]))[0]
     if np.any(away > tolerance):
         k = int(np.argmax(away))

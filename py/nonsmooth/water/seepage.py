@@ -141,6 +141,10 @@ def solve(mesh, conductivity, conditions, *, dry=DRY, start=None, tolerance=1e-9
 
     Raises SeepageError for a conductivity that is not positive, ConditionError for conditions, and Unconverged.
     """
+    if not isinstance(mesh, Mesh):
+        raise SeepageError(
+            f"mesh {checks.shown(mesh)}: give a Mesh, as mesher.of_section(...) and mesh.grid(...) make one"
+        )
     dry = checks.number("dry", dry, SeepageError, "give a share above 0 and up to 1", above=0, most=1)
     tolerance = checks.number("tolerance", tolerance, SeepageError, "give 1e-12 to 1e-3", least=1e-12, most=1e-3)
     problem = Equations(mesh, _tensors(conductivity, mesh), apply(mesh, conditions))

@@ -13,8 +13,8 @@ from nonsmooth import section  # noqa: E402
 from nonsmooth.figures import style, water  # noqa: E402
 from nonsmooth.records import RecordsError  # noqa: E402
 from nonsmooth.water import fields, seepage  # noqa: E402
-from nonsmooth.water.conditions import Reservoir  # noqa: E402
-from nonsmooth.water.mesh import grid  # noqa: E402
+from nonsmooth.water.conditions import Head, Reservoir  # noqa: E402
+from nonsmooth.water.mesh import Mesh, grid  # noqa: E402
 
 MESH = grid(np.linspace(0, 20, 21), np.linspace(0, 10, 11))
 LEFT, RIGHT = [(0, 0), (0, 10)], [(20, 0), (20, 10)]
@@ -51,6 +51,17 @@ def test_a_seepage_has_its_free_surface_its_scale_and_what_lines_mean():
     places = np.concatenate(flow_lines(ax)[0].get_segments())
     height = np.interp(places[:, 0], *line.T)
     assert len(places) > 100 and np.all(places[:, 1] < height + 0.6) and places[:, 1].min() > 0
+
+
+def test_between_flow_lines_flows_the_same():
+    """In uniform flow they are equally far apart, on the line of middle head; in two layers as these conduct."""
+    ends = [Head(LEFT, 20), Head(RIGHT, 15)]
+    places = water._equal_flows(seepage.solve(MESH, 1e-5, ends))
+    assert places[:, 0] == pytest.approx(10) and sorted(places[:, 1]) == pytest.approx((np.arange(12) + 0.5) / 1.2)
+    upper = MESH.nodes[MESH.triangles].mean(axis=1)[:, 1] > 8
+    layered = Mesh.of(MESH.nodes, MESH.triangles, upper.astype(int))
+    places = water._equal_flows(seepage.solve(layered, [1e-5, 2e-5], ends))
+    assert (places[:, 1] > 8).sum() == 4  # 2 × 2 m of 8 + 2 × 2
 
 
 def test_still_water_has_no_flow_lines():

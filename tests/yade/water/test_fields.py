@@ -67,6 +67,7 @@ def test_outside_the_mesh_is_refused_or_dry():
             lambda: MeshField(MESH, (0,), np.full((1, 20), np.nan)),
             r"pressure nan Pa at \(0, 0\) m, t = 0 s: give finite",
         ),
+        (lambda: MeshField(None, (0,), [[0]]), "mesh None: give a Mesh"),
         (lambda: field().at(np.inf), "time inf: give a finite number"),
         (lambda: field().pressure([[0, np.nan]]), r"points\[0\] \[0.0, nan\]: give finite numbers"),
         (lambda: fields.of_seepage([]), "0 results: give one or more on the same mesh"),

@@ -236,6 +236,7 @@ LEFT, RIGHT, TOP = [(0, 0), (0, 1)], [(2, 0), (2, 1)], [(0, 1), (2, 1)]
     [
         ([], "conditions give no head anywhere: add"),
         ([Inflow(LEFT, 1e-6)], "conditions give no head anywhere: add"),
+        (None, "conditions None: give a list of Reservoir"),
         (["rain"], r"conditions\[0\] 'rain': give Reservoir"),
         (
             [Head([(0.5, 0), (0.5, 1)], 3)],
@@ -282,6 +283,11 @@ def test_conditions_without_sense(make, message):
 def test_conductivities_and_options_without_sense(conductivity, options, message):
     with pytest.raises(seepage.SeepageError, match=message):
         seepage.solve(BOX, conductivity, [Head(LEFT, 3), Head(RIGHT, 2)], **options)
+
+
+def test_what_is_no_mesh():
+    with pytest.raises(seepage.SeepageError, match="mesh 'circle': give a Mesh"):
+        seepage.solve("circle", 1e-5, [Head(LEFT, 3)])
 
 
 def test_tensors():

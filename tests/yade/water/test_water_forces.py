@@ -126,6 +126,11 @@ def test_forces_without_sense(disks, options, message):
         forces.on_disks(still()[0], *disks, **options)
 
 
+def test_what_is_no_field():
+    with pytest.raises(forces.ForceError, match="field 9810: give a MeshField or a PhreaticLine"):
+        forces.on_disks(9810, [1], [1], [1])
+
+
 @pytest.mark.parametrize("numbers", ((0, 2650, 1000), (0.6, -1, 1000), (0.6, 2650, 0)))
 def test_critical_gradients_without_sense(numbers):
     with pytest.raises(forces.ForceError, match="give a number above 0"):

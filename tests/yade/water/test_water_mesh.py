@@ -184,12 +184,15 @@ def test_gmsh_that_fails_says_what_it_said(monkeypatch):
     "polygons, options, message",
     [
         ([], {}, r"polygons \[\]: give one or more"),
+        (None, {}, "polygons None: give one or more"),
         ([[(0, 0), (1, 1)]], {}, "polygon 0: it has fewer than three vertices; give"),
         ([[(0, 0), (1, 1), (1, 0), (0, 1)]], {}, "polygon 0: Self-intersection.*does not cross itself"),
         ([LOWER, [(2, 1), (4, 1), (4, 3)]], {"names": ("a", "b")}, "b overlaps a by 1.5 m²: give polygons that touch"),
         ([LOWER], {"size": 0}, "size 0: give a length of edges above 0"),
         ([LOWER], {"size": [1, 2]}, r"size \[1, 2\]: give one number \[m\], or one for each of 1 polygons"),
         ([LOWER], {"size": 1e-3}, "size 0.001: asks for 3.7e.07 triangles; give one that asks for 2e.06 or fewer"),
+        ([LOWER], {"points": [(8, math.nan)]}, r"points\[0\] \[8.0, nan\]: give finite numbers"),
+        ([LOWER], {"points": (8, 1)}, r"points \(8, 1\): give numbers of shape \(n, 2\)"),
         ([LOWER], {"points": [(8, 1), (4, 1)]}, r"points\[1\] \(4, 1\) lies 1 m from all borders: give places on"),
     ],
 )
