@@ -6,8 +6,9 @@ face by a one-way law, κ max(h − y, 0), with a κ so large that h = y there.
 
 Newton's method solves it, with the share's exact derivative. It begins with a body that conducts as well where it is
 dry, which needs no free surface, and lets this conductivity fall by steps (:data:`DROP`), each from the solution
-before; a step that does not converge is halved. A last step is solved until the equations hold to rounding, so that
-what comes in is what leaves.
+before; a step that does not converge is halved. Where water falls through dry ground, as below a seam of clay, it may
+not converge; then all is done again with dry ground that conducts more downwards (:data:`FALLING`). A last step is
+solved until the equations hold to rounding, so that what comes in is what leaves.
 """
 
 from __future__ import annotations
@@ -30,6 +31,7 @@ __all__ = ["DRY", "Seepage", "SeepageError", "Unconverged", "course", "solve", "
 DRY = 1e-3  # conductivity of what lies above the free surface, by that below it
 DROP = 0.5  # decades by which it falls in a step of the way there ...
 SHORTEST = 1e-3  # ... and the smallest, before it is given up
+FALLING = 0.1  # of the conductivity: what dry ground conducts downwards where nothing converges with less
 
 
 class SeepageError(WaterError):
@@ -157,6 +159,12 @@ def solve(mesh, conductivity, conditions, *, dry=DRY, start=None, tolerance=1e-9
         found = problem.newton(problem.with_given(head), dry, tolerance)
         if found:
             return _result(problem, *found, dry)
+    try:
+        return _result(problem, *_by_steps(problem, dry, tolerance), dry)
+    except Unconverged:
+        if problem.downwards >= FALLING:
+            raise
+    problem.downwards = FALLING
     return _result(problem, *_by_steps(problem, dry, tolerance), dry)
 
 

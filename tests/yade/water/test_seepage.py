@@ -298,6 +298,22 @@ def test_tensors():
         seepage.tensor(1, 0)
 
 
+def test_water_that_drips_from_a_seam_of_clay_falls_through_dry_ground(monkeypatch):
+    """It does not converge where dry ground conducts a thousandth in all directions."""
+    mesh = grid(np.linspace(0, 40, 21), np.linspace(0, 20, 21))
+    y = mesh.nodes[mesh.triangles].mean(axis=1)[:, 1]
+    seam = Mesh.of(mesh.nodes, mesh.triangles, np.where((y > 8) & (y < 10), 1, 0))
+    left, right = [(0, 0), (0, 20)], [(40, 0), (40, 20)]
+    given = [Reservoir(left, 18), Reservoir(right, 3)]
+    result = seepage.solve(seam, [1.0, 3e-3], given)
+    # between what the sand carries, its part below the seam under pressure alone, and a body of sand
+    assert 8 * 15 / 40 < result.inflow_on(left) < (18**2 - 3**2) / 80
+    assert result.inflow_on(left) == pytest.approx(-result.inflow_on(right), rel=1e-9)
+    monkeypatch.setattr(seepage, "FALLING", 0.0)
+    with pytest.raises(seepage.Unconverged, match="or a larger dry share"):
+        seepage.solve(seam, [1.0, 3e-3], given)
+
+
 def test_what_does_not_converge_says_how_far_it_is_off(monkeypatch):
     monkeypatch.setattr(equations, "TRIED", 1)
     with pytest.raises(
