@@ -32,6 +32,7 @@ FACE = {
     "scene": "world.scene",
     "scene_arrays": "world.scene_arrays",
     "shaking": "world.shaking",
+    "pore_pressure": "world.pore_pressure",
     "tables": "world.tables",
     "worlds": "world.worlds",
     "soft": "world.soft",
@@ -48,7 +49,7 @@ FACE = {
     "servers": "running.servers",
 }
 
-__all__ = [*(name for name in FACE if "." not in name), "campaign", "contact", "errors", "figures", "records"]
+__all__ = [*(name for name in FACE if "." not in name), "campaign", "contact", "errors", "figures", "records", "water"]
 
 
 class _Face(importlib.abc.MetaPathFinder, importlib.abc.Loader):

@@ -7,7 +7,7 @@ PACKAGES_PROJECT=(
     libboost-all-dev libeigen3-dev zlib1g-dev libhdf5-dev pybind11-dev
     python3-numpy python3-scipy python3-matplotlib python3-shapely python3-yaml python3-jsonschema
     python3-tqdm python3-tabulate python3-pandas python3-h5py python3-h5py-serial python3-meshio python3-docutils python3-jinja2 python3-pil
-    python3-ipython ffmpeg)
+    python3-ipython ffmpeg gmsh)
 
 # To build and run the tests, and to build the documentation with its notebooks (setup.sh --tests).
 PACKAGES_TESTS=(
@@ -28,8 +28,8 @@ PACKAGES_YADE_STOCK=(
 # To show notebooks in a browser and to run their cells (setup.sh --notebooks).
 PACKAGES_NOTEBOOKS=(jupyter-notebook python3-ipykernel python3-nbconvert)
 
-# Another solver that the tests compare with (setup.sh --tests), where the distribution has it: Debian 12 does, Debian 13 does not.
-PACKAGES_ORACLE=(libsiconos-numerics-dev)
+# Other solvers that the tests compare with (setup.sh --tests), where the distribution has them: Debian 13 has no Siconos.
+PACKAGES_ORACLE=(libsiconos-numerics-dev freefem++)
 
 # To compile the solver for another processor, in .ci/run: 56 MB to fetch, 200 MB on the disk, so no user needs it.
 PACKAGES_CROSS=(g++-aarch64-linux-gnu)

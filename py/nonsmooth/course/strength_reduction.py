@@ -10,7 +10,7 @@ The factor of safety is the number by which the strengths must be divided for th
 * bisection: then the bracket between the largest factor at which the slope stood and the smallest at which it failed is
   halved, each trial from the rest at the former, until it is no wider than ``within`` of itself;
 * failed: in a trial the mean speed has reached that of a slope that moves, or the mass has collapsed (both as
-  :mod:`.slope` has them, from the trial's beginning on), or it has not come to rest within ``longest``;
+  :mod:`~yade.nonsmooth.course.slope` has them, from the trial's beginning on), or it has not come to rest within ``longest``;
 * stable: for ``hold`` the mean speed was that of a slope at rest at most, and no bond broke;
 * a slope that still stands at the factor ``most`` stands for ever, as far as anybody asks; one that fails even at
   ``least`` never stands.

@@ -20,6 +20,7 @@ from .scene import draw
 from .shaking import shaking
 from .sweep import means
 from .toe import toe, toes
+from .water import pore_pressures, seepage
 from .weakening import weakening
 
 __all__ = [
@@ -46,4 +47,6 @@ __all__ = [
     "contact_law",
     "bond_zone",
     "water_forces",
+    "seepage",
+    "pore_pressures",
 ]

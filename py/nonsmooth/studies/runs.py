@@ -251,7 +251,7 @@ Run = SlopeRun  # its name for scripts and notebooks
 
 
 class SafetyRun(StudyRun):
-    """A search for a factor of safety, see :mod:`.safety`: its snapshots are "start" (the first rest), "rested" (the
+    """A search for a factor of safety, see :mod:`~yade.nonsmooth.studies.safety`: its snapshots are "start" (the first rest), "rested" (the
     last one of a trial), and "before_failure" and "failed", of the trial that failed at the smallest factor.
     """
 

@@ -14,6 +14,7 @@ from . import (
     solver,
     state,
     walls,
+    water,
 )
 
 MUTANTS = (
@@ -31,6 +32,7 @@ MUTANTS = (
     + safety.MUTANTS
     + laboratory.MUTANTS
     + drawing.MUTANTS
+    + water.MUTANTS
 )
 
 #: Mutants that no test sees, and why that is left so: {name: reason}.

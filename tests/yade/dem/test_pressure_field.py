@@ -6,7 +6,8 @@ import pytest
 from scipy.spatial import Delaunay
 from yade import O
 from yade.minieigenHP import Vector3, Vector3i
-from yade.nonsmooth import scene
+from yade.nonsmooth import pore_pressure, scene
+from yade.nonsmooth.water import fields, forces, mesh as meshes
 from yade.wrapper import PorePressureEngine, PorePressureField
 
 from contact_scenes import G, begin, bits, box, loose_heap, material, run
@@ -185,3 +186,31 @@ def test_what_has_no_sense_is_refused(change, word):
     begin(before=[PorePressureEngine(field=water)])
     with pytest.raises(Exception, match="PorePressureField"):
         O.step()
+
+
+def test_a_mesh_field_acts_as_its_forces_tell():
+    """The engine's forces are those that water.forces computes without YADE, between two states in time."""
+    stuff = material(0.3)
+    box(stuff, 12, 12)
+    ids = loose_heap(stuff, columns=7, rows=7)
+    points, triangles = mesh()
+    x, y = points.T
+    states = [WATER * (4 + 0.3 * np.sin(x) - y), WATER * (9 - 0.1 * x - y)]
+    told = fields.MeshField(meshes.Mesh.of(points, triangles), (0.0, 2.0), states)
+    begin(dt=1e-3, before=[PorePressureEngine(field=pore_pressure.field(told, begin=-0.7), volumeFactor=1 / 0.8)])
+    places = [O.bodies[k].state.pos for k in ids]
+    x, y, r = np.array([(p[0], p[1], O.bodies[k].shape.radius) for k, p in zip(ids, places)]).T
+    run(1)
+    expected = forces.on_disks(told, x, y, r, 0.7, area="bulk", packing_fraction=0.8, outside="dry")
+    water = O.engines[3]
+    assert (water.totalForce - Vector3(*expected.sum(axis=0), 0)).norm() < 1e-9 * np.abs(expected).sum()
+    wet = np.abs(expected).sum(axis=1) > 0
+    assert [water.isWet(k) for k in ids] == wet.tolist() and 10 < wet.sum() < len(ids)
+
+
+@pytest.mark.parametrize("arguments, word", [((3,), "give a MeshField"), ((None, math.inf), "begin inf")])
+def test_what_is_no_field_is_refused(arguments, word):
+    points, triangles = mesh()
+    good = fields.MeshField(meshes.Mesh.of(points, triangles), (0.0,), [np.zeros(len(points))])
+    with pytest.raises(pore_pressure.PorePressureError, match=word):
+        pore_pressure.field(*(good if one is None else one for one in arguments))

@@ -31,6 +31,7 @@ MODULES = (
     "safety",
     "avalanche",
     "paper",
+    "water",
 )
 
 

@@ -213,7 +213,7 @@ def write_snapshot(path, built, layers, t):
 
 def run(asked, folder, progress=lambda share, doing: None) -> dict:
     """Searches the factor of safety of an :class:`.asked.Asked` in the running scene, with records below ``folder``,
-    and goes on from a checkpoint in it, if there is one; returns the summary, see :func:`.results.summarise`.
+    and goes on from a checkpoint in it, if there is one; returns the summary, see :func:`~yade.nonsmooth.studies.safety.results.summarise`.
 
     ``progress``: called now and then with the share done and what is being done. Raises what a slope's run raises,
     SafetyError for a checkpoint that is damaged or of another search, and interrupts.Interrupted after Ctrl-C.

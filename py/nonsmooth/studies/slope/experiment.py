@@ -42,7 +42,7 @@ __all__ = ["ArgumentError", "EndError", "Experiment", "ExperimentError", "State"
 
 
 class Experiment(driver.Course):
-    """Runs a built :class:`~nonsmooth.studies.slope.slope.Slope` and writes its records into ``folder``.
+    """Runs a built :class:`~yade.nonsmooth.studies.slope.slope.Slope` and writes its records into ``folder``.
 
     ``progress``: called with (stage, seconds simulated, seconds foreseen) after every row. ``damping_moving``: of soft
     contacts, instead of their world's while the slope moves. A slope of soft contacts has no checkpoints. ``state``,
@@ -142,7 +142,7 @@ class Experiment(driver.Course):
         return self.state.stage == "done" or (end is not None and come_to(end))
 
     def summarise(self, threads=None) -> dict:
-        """Writes ``summary.json`` of what has been run, and returns it, see :func:`.results.summarise`."""
+        """Writes ``summary.json`` of what has been run, and returns it, see :func:`~yade.nonsmooth.studies.slope.results.summarise`."""
         solver = self.slope.solver
         ever = (
             {"overlap_worst_ever": solver.overlapWorstEver, "way_worst_ever": solver.wayWorstEver} if self.hard else {}
