@@ -51,8 +51,10 @@ def named(text, here, modules):
     in them; ``here``: the parts of the module that the text stands in.
     """
     names = {found.strip(".") for found in re.findall(r"\b(?:yade\.)?nonsmooth\.([a-z_.]+)", text)}
-    if re.fullmatch(r"[a-z_]+(\.[a-z_]+)+(:\w+)?|[a-z_.]+:[a-z_]+", text):
+    if re.fullmatch(r"[a-z_.]+:[a-z_]+", text):
         names.add(text.partition(":")[0])
+    if text in modules and "." in text:  # not with an attribute behind it, which is how keys of sections look
+        names.add(text)
     if re.fullmatch(r"\.+[a-z_.]+", text):
         names |= {".".join([*here[:k], text.strip(".")]) for k in range(len(here))}
     face = importlib.import_module("nonsmooth").FACE
