@@ -2,8 +2,10 @@
 """The factor of safety of a slope: its strengths are divided by a factor that grows until it fails, and the factor at
 which it fails is closed in by bisection.
 
-  scripts/factor_of_safety.py --section NAME|FILE [--table METRES] [--seeds S …] [--divide NAME,…] [--materials NAME,…] [--disks N] [--out DIR] [--threads T] [--resume]
-  scripts/factor_of_safety.py --section NAME|FILE --over KEY=VALUE,VALUE,… [--over …]     all combinations, as scripts/sweep.py has them
+  scripts/factor_of_safety.py --section NAME|FILE [--table METRES] [--seeds S …] [--divide NAME,…]
+      [--materials NAME,…] [--disks N] [--out DIR] [--threads T] [--resume]
+  scripts/factor_of_safety.py --section NAME|FILE --over KEY=VALUE,VALUE,… [--over …]
+      all combinations, as scripts/sweep.py has them
 """
 import argparse
 import sys
@@ -38,7 +40,8 @@ def read_arguments():
         "--table",
         type=section_arguments.number(float, 0, 1e6, "a height [m], 0 or more"),
         metavar="METRES",
-        help="height above its plane at which the water table stands (default: the section's where that comes to stand, else dry)",
+        help="height above its plane at which the water table stands (default: the section's where that comes to "
+        "stand, else dry)",
     )
     parser.add_argument(
         "--divide",
