@@ -130,6 +130,30 @@ def test_a_disk_is_turned_by_a_wheel_that_is_turned_by_its_orientation():
     assert O.bodies[disk].state.angVel[2] == pytest.approx(-2, rel=1e-9)
 
 
+def test_a_spin_that_is_set_behind_the_solve_is_no_move():
+    """The integrator turns a wheel farther than the solve has known: a disk that is pressed on it rolls with its spin,
+    and no more.
+    """
+    stuff = material(0.5)
+    wheel = O.bodies[O.bodies.append(scene.disk((0, 0), 0.5, stuff, fixed=True))].state
+    disk = O.bodies[free_disk(1, 0, stuff=stuff)].state
+    begin(gravity=(0, 0, 0))
+    disk.blockedDOFs = "yzXY"
+    O.forces.setPermF(1, (-1e4, 0, 0))
+    run(1)
+    solver = next(k for k, e in enumerate(O.engines) if e.label == engine().label)
+    for spin in (2e-3, 4e-3, 6e-3):
+        O.subStepping = True
+        for _ in range(solver + 2):  # the step begins by a call of its own
+            O.step()
+        wheel.angVel = (0, 0, spin)
+        while O.subStep >= 0:
+            O.step()
+        O.subStepping = False
+        engine().advance(1)
+        assert disk.angVel[2] == pytest.approx(-spin, rel=1e-9)
+
+
 # ---- what is no motion ----------------------------------------------------------------------------
 
 
