@@ -73,7 +73,7 @@ SAME = {
     ("pkg/dem/seam/Turn.cpp", "!data->shownAlone.empty()", "true"): "of no bodies none is taken again",
     ("pkg/dem/WallJoints.cpp", "now != walls", "true"): "joints of the same walls are found again and are the same",
     ("pkg/dem/PlateLoadEngine.cpp", "rail < 0", "rail < 1"): (
-        "a guide to body #0 has its former one taken away where it is looked for, and beside soft contacts there is none"
+        "hold() takes the former guide away where the rail is body #0, and soft contacts have none"
     ),
     (
         "pkg/dem/SceneCheck.cpp",
