@@ -72,6 +72,9 @@ SAME = {
     ): "interactions are shown where none is taken away, which changes no bit",
     ("pkg/dem/seam/Turn.cpp", "!data->shownAlone.empty()", "true"): "of no bodies none is taken again",
     ("pkg/dem/WallJoints.cpp", "now != walls", "true"): "joints of the same walls are found again and are the same",
+    ("pkg/dem/PlateLoadEngine.cpp", "rail < 0", "rail < 1"): (
+        "hold() takes the former guide away where the rail is body #0, and soft contacts have none"
+    ),
     (
         "pkg/dem/SceneCheck.cpp",
         "known.count(b->material->getClassIndex()) || loop->physDispatcher->getFunctor2D(b->material, ours, swap)",
@@ -82,7 +85,22 @@ SAME = {
         "1 - 1e-9",
         "1 - 2e-09",
     ): "who may act a rounding sooner is shown the bodies for nothing, which changes no bit",
+    (
+        "pkg/dem/Arc.cpp",
+        "-shift2",
+        "shift2",
+    ): "YADE turns the interaction round and calls go(): nobody calls goReverse()",
     # ---- pkg/dem: other numbers with the same answer
+    (
+        "pkg/dem/seam/GivenMotion.cpp",
+        "s[0].velocity != 0 || s[1].velocity != 0 || s[2].velocity != 0",
+        "true",
+    ): "0 is added to the velocity of a body that nobody moves",
+    (
+        "pkg/dem/seam/ContactSeamGiven.cpp",
+        "ri > 0 && rj > 0",
+        "ri > 0 && rj >= 0",
+    ): "no radius is 0: that of a disk is positive, else it is refused, and all others have -1",
     (
         "pkg/dem/Law2_SegmentGeom_WallPhys_SlipWeakening.cpp",
         "-1",

@@ -76,6 +76,8 @@ MUTANTS = (
            "test_engine.py::test_driven_wall_pushes_and_works"),
     mutant("scatter-inertia", SCATTER, "inertia[id] * v.w * v.w", "mass[id] * v.w * v.w", "energy of rotation has the mass in the place of the inertia",
            "test_reactions.py::test_figures_of_a_step_by_hand"),
+    mutant("scatter-bond-rates", SCATTER, "std::abs(u.t) < nearly * sums.bondRate * across", "true", "a bond that slides faster than another one opens does not bound the step",
+           "test_time_stepper.py::test_the_rate_of_bonds_is_the_largest_of_all"),
     mutant("scatter-centre", SCATTER, "sums.centre += mass[id] * at;", "sums.centre += at;", "the centre of mass does not know masses",
            "test_whole_slope.py::test_a_column_is_what_the_steps_say[centroid_x_m]", slow=True),
     mutant("scatter-touching", SCATTER, "(p.n != 0) | (r.gap <= 0)", "(p.n != 0) & (r.gap <= 0)",

@@ -40,6 +40,8 @@ MUTANTS = (
            "test_impacts.py::test_more_impacts_than_allowed_are_told"),
     mutant("impacts-wall-work", SEAM, "(w.x > 0 ? 0 : p.x * v.x)", "-(w.x > 0 ? 0 : p.x * v.x)", "driven walls take what they give",
            "test_impacts.py::test_a_driven_wall_does_the_work_that_disks_have"),
+    mutant("impacts-wall-work-up", SEAM, "(w.y > 0 ? 0 : p.y * v.y)", "-(w.y > 0 ? 0 : p.y * v.y)", "walls that are driven upwards take what they give",
+           "test_impacts.py::test_a_driven_wall_does_the_work_that_disks_have"),
     mutant("impacts-weight", SEAM, "0.5 * relaxation.step * m", "-0.5 * relaxation.step * m", "the balance has the work of gravity in impacts with the wrong sign", GRAVITY),
     mutant("impacts-lifted", SEAM, "sums.correction -= m * gravity.dot(Vector3r(f.shift.x, f.shift.y, 0));", "sums.correction += m * gravity.dot(Vector3r(f.shift.x, f.shift.y, 0));",
            "what displacements lift is taken for what they lower", GRAVITY),

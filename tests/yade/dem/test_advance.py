@@ -158,6 +158,33 @@ def test_other_threads_go_on_meanwhile():
         watcher.join()
 
 
+def test_another_thread_sees_bodies_move_meanwhile():
+    """Though nobody needs them within the steps: what it sees is about a twentieth of a second old."""
+    state = O.bodies[free_disk(velocity=(1, 0, 0))].state
+    begin(gravity=(0, 0, 0), dt=1e-6)
+    O.step()
+    places, over = [0.0], threading.Event()
+
+    def watch():
+        while not over.wait(1e-3):
+            if state.pos[0] != places[-1]:
+                places.append(state.pos[0])
+
+    watcher = threading.Thread(target=watch)
+    watcher.start()
+    try:
+        for k in range(7):  # until it has had its turn within one of them
+            begun = state.pos[0]
+            engine().advance(1000 * 2**k)
+            if any(begun < x < state.pos[0] for x in list(places)):
+                break
+        else:
+            pytest.fail("the other thread has seen no body move in any of the calls")
+    finally:
+        over.set()
+        watcher.join()
+
+
 # ---- signals --------------------------------------------------------------------------------------
 
 

@@ -225,6 +225,21 @@ def test_a_corner_of_an_arc_and_a_segment_has_one_contact(arc_first, drop, end):
         assert tuple(held[0].geom.normal)[:2] == pytest.approx(away, abs=1e-6)
 
 
+@pytest.mark.parametrize("at, holder", [(250, 0), (210, 0), (100, 1), (190, 1)])
+def test_the_foot_of_a_wall_on_the_circle_of_an_arc(at, holder):
+    """A wall outside a bowl from 200 to 340 degrees, whose foot lies on the bowl's circle, and a disk that is pressed
+    there from within: the bowl alone holds it, and where that has ended the foot, which is a corner."""
+    stuff = material(0.0)
+    away = np.array([math.cos(math.radians(at)), math.sin(math.radians(at))])
+    O.bodies.append(scene.arc((0, 0), 2, math.radians(200), math.radians(340), stuff))
+    O.bodies.append(scene.segments([2 * away, 4 * away], stuff))
+    i = O.bodies.append(scene.disk(1.7 * away, 0.3, stuff))
+    begin(dt=1e-3, gravity=(*(G * away), 0))
+    run(3)
+    assert [(c.id1, c.id2) for c in contacts() if c.geom.owned] == [(holder, i)]
+    assert tuple(O.bodies[i].state.vel) == pytest.approx((0, 0, 0), abs=1e-9)
+
+
 def test_a_drum_turns_with_its_pieces_and_they_stay_one_wall():
     """Twelve pieces that turn about their common centre; disks in it go on as in a drum of one piece."""
     turned = []

@@ -12,6 +12,7 @@ from yade.wrapper import (
     Body,
     Bo1_Box_Aabb,
     Bo1_Sphere_Aabb,
+    BoxFactory,
     Collider,
     Ig2_Box_Sphere_ScGeom,
     InsertionSortCollider,
@@ -331,6 +332,24 @@ def test_refuses_what_it_cannot_do(spoil, words):
     with pytest.raises(RuntimeError) as error:
         O.step()
     assert all(word in str(error.value) for word in words)
+
+
+def test_a_factory_of_yades_finds_the_places_that_are_free():
+    """It asks the collider who has a part in a box, and takes one in which nobody has."""
+    stuff = material(0.3)
+    ids = [O.bodies.append(scene.disk((0, 0), 1.0, stuff, fixed=True))]
+    O.bodies.append(scene.segments([(-3, -1.5), (3, -1.5)], stuff))
+    begin(gravity=(0, 0, 0))
+    factory = BoxFactory(extents=(2, 2, 0), center=(0, 0, 0), normal=(0, 0, 1), vMin=0, vMax=0, rMin=0.1, rMax=0.2)
+    factory.massFlowRate, factory.materialId, factory.blockedDOFs, factory.maxParticles = 1e9, stuff.id, "xyzXYZ", 0
+    for _ in range(15):
+        run(1)
+        factory.maxParticles += 1
+        factory()
+        assert len(factory.ids) == factory.maxParticles
+    disks = [(*tuple(O.bodies[k].state.pos)[:2], O.bodies[k].shape.radius) for k in [*ids, *factory.ids]]
+    assert all(math.hypot(x - u, y - v) > r + s for k, (x, y, r) in enumerate(disks) for u, v, s in disks[:k])
+    assert all(abs(y + 1.5) > r for _, y, r in disks[1:])
 
 
 @pytest.mark.parametrize("axis", [0, 1])

@@ -54,6 +54,32 @@ def test_a_script_that_steps_by_itself_moves_it_too():
     assert O.bodies[disk].state.vel[0] == pytest.approx(1, rel=1e-9)
 
 
+@pytest.mark.parametrize("height", [0.0, -3.0, 250.0])
+def test_a_lift_gives_its_speed_wherever_it_is(height):
+    stuff = material(0.5)
+    O.bodies.append(scene.segments([(-2, height), (2, height)], stuff, sense=1))
+    disk = free_disk(0, height + 0.5, stuff=stuff)
+    begin()
+    pushes((0, 1e-3))
+    engine().advance(100)
+    assert O.bodies[disk].state.vel[1] == pytest.approx(1, rel=1e-9)
+
+
+def test_a_piston_goes_on_where_other_walls_come_and_go():
+    """A disk that is pressed on it has its speed in every step."""
+    disk = piston(gravity=(-1.0, 0, 0))
+    wall, seen = O.bodies[0], []
+    for k in range(60):
+        O.bodies[0].state.pos += Vector3(1e-3, 0, 0)
+        if k == 20:
+            (other,) = O.bodies.append(scene.segments([(50, -1), (50, 1)], wall.material))
+        if k == 40:
+            O.bodies.erase(other)
+        O.step()
+        seen.append(O.bodies[disk].state.vel[0])
+    assert seen[5:] == pytest.approx([1] * 55, rel=1e-9)
+
+
 def test_a_floor_that_is_moved_drags_a_block():
     stuff = material(0.5)
     ground = floor(stuff)
@@ -102,6 +128,30 @@ def test_a_disk_is_turned_by_a_wheel_that_is_turned_by_its_orientation():
     ]
     run(1000)
     assert O.bodies[disk].state.angVel[2] == pytest.approx(-2, rel=1e-9)
+
+
+def test_a_spin_that_is_set_behind_the_solve_is_no_move():
+    """The integrator turns a wheel farther than the solve has known: a disk that is pressed on it rolls with its spin,
+    and no more.
+    """
+    stuff = material(0.5)
+    wheel = O.bodies[O.bodies.append(scene.disk((0, 0), 0.5, stuff, fixed=True))].state
+    disk = O.bodies[free_disk(1, 0, stuff=stuff)].state
+    begin(gravity=(0, 0, 0))
+    disk.blockedDOFs = "yzXY"
+    O.forces.setPermF(1, (-1e4, 0, 0))
+    run(1)
+    solver = next(k for k, e in enumerate(O.engines) if e.label == engine().label)
+    for spin in (2e-3, 4e-3, 6e-3):
+        O.subStepping = True
+        for _ in range(solver + 2):  # the step begins by a call of its own
+            O.step()
+        wheel.angVel = (0, 0, spin)
+        while O.subStep >= 0:
+            O.step()
+        O.subStepping = False
+        engine().advance(1)
+        assert disk.angVel[2] == pytest.approx(-spin, rel=1e-9)
 
 
 # ---- what is no motion ----------------------------------------------------------------------------

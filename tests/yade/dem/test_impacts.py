@@ -355,11 +355,15 @@ def test_friction_and_spin_act_in_each_impact():
     assert e_.slidingLoss > 0 and e_.impactsFollowed == 2
 
 
-def test_a_driven_wall_does_the_work_that_disks_have():
+@pytest.mark.parametrize("turn", [0, 40, 90])
+def test_a_driven_wall_does_the_work_that_disks_have(turn):
+    """Whichever way it goes."""
     stuff = material(0.0, restitution=1.0)
-    for k in O.bodies.append(scene.segments([(-0.502, -2), (-0.502, 2)], stuff)):
-        O.bodies[k].state.vel = (5, 0, 0)
-    ids = [free_disk(1.002 * k, 0, stuff=stuff) for k in range(3)]
+    c, s = math.cos(math.radians(turn)), math.sin(math.radians(turn))
+    ends = [(-0.502 * c - y * s, -0.502 * s + y * c) for y in (-2, 2)]
+    for k in O.bodies.append(scene.segments(ends, stuff)):
+        O.bodies[k].state.vel = (5 * c, 5 * s, 0)
+    ids = [free_disk(1.002 * k * c, 1.002 * k * s, stuff=stuff) for k in range(3)]
     e = begin(gravity=(0, 0, 0))
     run(20)
     assert totals(ids)[0] > 1 and e.wallWork == pytest.approx(totals(ids)[0], rel=1e-10)

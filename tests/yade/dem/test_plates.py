@@ -163,6 +163,18 @@ def test_between_inclined_walls_the_width_is_that_at_the_plate():
     assert engine.width == pytest.approx(5, rel=1e-12)  # a funnel of 45°, 2 m wide at its foot
 
 
+@pytest.mark.parametrize("angle", ANGLES)
+def test_between_disks_the_width_is_that_of_their_centres_along_the_plate(angle):
+    """Posts have no direction in which they could go on to the plate."""
+    begin(gravity=(0, 0, 0), dt=1e-3)
+    stuff = material(0.3)
+    posts = [O.bodies.append(scene.disk(turned(*at, angle), 0.1, stuff, fixed=True)) for at in ((-1, 0.5), (1.5, 1.2))]
+    ends = [turned(3, 2, angle), turned(-3, 2, angle)]
+    engine = scene.plate(ends, stuff, stress=1e3, mass=1e9, between=posts)
+    run(1)
+    assert engine.width == pytest.approx(2.5, rel=1e-12) and engine.load == pytest.approx(2500, rel=1e-12)
+
+
 @pytest.mark.parametrize("angle", [0.0, math.radians(30)])
 def test_a_loaded_plate_goes_on_after_loading(angle, tmp_path):
     def press():

@@ -157,6 +157,34 @@ def test_the_rate_of_a_bond_is_that_at_which_it_crosses_its_ellipse(velocity, ra
     assert O.dt == pytest.approx(0.25 / max(normal, shear), rel=1e-12) and O.engines[0].limit == 2
 
 
+@pytest.mark.parametrize("faster", ["opens", "slides"])
+@pytest.mark.parametrize("first", ["opens", "slides"])
+def test_the_rate_of_bonds_is_the_largest_of_all(first, faster):
+    """Two pairs far apart, one of which opens and the other slides, without friction: the faster one counts, whichever
+    stands first."""
+    strength, h = 1e3, 1e-3
+    stuff = material(
+        0.0, tensileStrength=strength, bondEllipseNormal=0.05, bondEllipseTangential=0.02, bondCreationDistance=0.02
+    )
+    kinds = ("opens", "slides") if first == "opens" else ("slides", "opens")
+    speeds = {kind: 1.0 if kind == faster else 0.1 for kind in kinds}
+    free = {}
+    for k, kind in enumerate(kinds):
+        O.bodies.append(scene.disk((20 * k, 0), 1.0, stuff, fixed=True))
+        free[kind] = O.bodies[O.bodies.append(scene.disk((20 * k + 2, 0), 1.0, stuff))].state
+    e = begin(gravity=(0, 0, 0), dt=h)
+    O.step()
+    assert e.bond() == 2
+    free["opens"].vel, free["slides"].vel = (speeds["opens"], 0, 0), (0, speeds["slides"], 0)
+    stepper(largest=h)
+    O.step()
+    opening = speeds["opens"] - h * 2 * strength / free["opens"].mass  # it yields with F_a; ℓ = 2 m
+    rates = {"opens": opening / (0.05 * 2), "slides": speeds["slides"] / (0.02 * 2)}
+    assert (
+        e.bonds == 2 and e.bondRate == pytest.approx(rates[faster], rel=1e-9) and rates[faster] == max(rates.values())
+    )
+
+
 def pile_that_is_struck(**limits):
     stuff = material(0.3)
     O.bodies.append(scene.segments([(-5, 0), (5, 0)], stuff))
