@@ -52,11 +52,13 @@ def test_outside_there_is_no_water(place):
     assert field(points, triangles, np.ones(len(points))).at(Vector3(*place, 0)) == (None, None)
 
 
-def test_holes_and_gaps_between_triangles_are_outside():
+@pytest.mark.parametrize("first", [(0, 1, 2), (1, 2, 0), (2, 0, 1), (2, 1, 0)])
+def test_holes_and_gaps_between_triangles_are_outside(first):
     points = np.array([(0, 0), (1, 0), (0, 1), (1, 1), (2, 0), (2, 1)], float)
-    water = field(points, [(0, 1, 2), (4, 5, 3)], np.arange(6.0))
-    assert water.at(Vector3(0.2, 0.2, 0))[0] is not None and water.at(Vector3(1.8, 0.5, 0))[0] is not None
-    assert water.at(Vector3(0.9, 0.9, 0)) == (None, None)
+    water = field(points, [first, (4, 5, 3)], np.arange(6.0))
+    assert water.at(Vector3(0.2, 0.2, 0))[0] == pytest.approx(0.6) and water.at(Vector3(1.8, 0.5, 0))[0] is not None
+    for gap in ((0.9, 0.9), (0.55, 0.5), (1.2, 0.5)):
+        assert water.at(Vector3(*gap, 0)) == (None, None)
 
 
 def test_a_triangles_gradient_is_that_of_its_three_nodes():
