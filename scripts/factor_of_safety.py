@@ -87,14 +87,7 @@ def read_arguments():
     parser.add_argument("--world", choices=("hard", "soft"), default="hard", help="contacts (default: hard)")
     parser.add_argument("--stiffness", type=arguments.positive, metavar="PA", help="soft: Young's modulus [Pa]")
     arguments.add_seeds(parser, None, "seeds of the packings, one search each (default: the section's)")
-    parser.add_argument(
-        "--over",
-        action="append",
-        default=[],
-        type=section_arguments.varied,
-        metavar="KEY=V,V,…",
-        help="values of a key of the section file, as materials.soil.friction=0.4,0.6; several: all combinations",
-    )
+    section_arguments.add_over(parser, "materials.soil.friction=0.4,0.6")
     parser.add_argument("--no-figures", action="store_true", help="numbers alone")
     arguments.add_out(parser, "out/safety", "the plan and its searches")
     arguments.add_threads(parser, "searches at a time", section_arguments.threads)

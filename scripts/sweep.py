@@ -28,14 +28,7 @@ SHOWN = ("verdict", "water_highest_m", "water_at_failure_m", "front_travel_m", "
 def read_arguments():
     parser = argparse.ArgumentParser(prog="sweep.py", description=__doc__.partition("\n\n")[0])
     section_arguments.add(parser, needless=("--run", "--number", "--collect"))
-    parser.add_argument(
-        "--over",
-        action="append",
-        default=[],
-        type=section_arguments.varied,
-        metavar="KEY=V,V,…",
-        help="values of a key of the section file, as water.table.rate=0.5,1 or walls.DP.material=dp,ss; several: all combinations",
-    )
+    section_arguments.add_over(parser, "water.table.rate=0.5,1 or walls.DP.material=dp,ss")
     parser.add_argument(
         "--end",
         type=section_arguments.seconds,

@@ -11,7 +11,7 @@ import yaml
 from ..model import materials, section
 from ..model.section import reader, similar
 
-__all__ = ["add", "number", "read", "seconds", "threads", "varied"]
+__all__ = ["add", "add_over", "number", "read", "seconds", "threads", "varied"]
 
 
 def number(kind, low, high, what):
@@ -45,6 +45,18 @@ def varied(text):
     if not sign or not key or not found:
         raise argparse.ArgumentTypeError(f"{text[:60]!r}: give KEY=VALUE,VALUE,…, as seed=1,2,3")
     return key, found
+
+
+def add_over(parser, example):
+    """Adds --over, which names keys of the section file and their values; ``example``: of such words, for its help."""
+    parser.add_argument(
+        "--over",
+        action="append",
+        default=[],
+        type=varied,
+        metavar="KEY=V,V,…",
+        help=f"values of a key of the section file, as {example}; several: all combinations",
+    )
 
 
 def add(parser, default=None, needless=()):

@@ -39,7 +39,7 @@ MUTANTS = (
     # ---- trials
     mutant("safety-back", SEARCH, "if said[0] == reduction.STABLE:", "if said:", "a trial begins where the one before has failed", BLOCK + "test_a_dry_block_has_its_exact_factor"),
     mutant("safety-steps", SEARCH, '"step": s.steps + O.iter - s.first_step', '"step": O.iter', "steps of the series go back with the scene", BLOCK + "test_a_dry_block_has_its_exact_factor"),
-    mutant("safety-loaded", LOADING, "slope.set_strengths(built, asked.strengths(factor), world)", "slope.set_strengths(built, asked.strengths(1.0), world)",
+    mutant("safety-loaded", LOADING, "asked.strengths(factor)", "asked.strengths(1.0)",
            "a slope that fails is loaded again as it was", BLOCK + "test_a_block_that_fails_as_it_is_has_a_factor_below_one"),
     mutant("safety-mass", MASS, "FASTEST = 0.99", "FASTEST = 1.0", "a disk that falls alone is all that fails", "plain:test_failing_mass.py"),
     mutant("safety-endless", ASKED, "water.rate > 0 and isinstance(hold, str)", "False", "a table that rises without end is let through",

@@ -4,14 +4,11 @@ rests or fails.
 
 from __future__ import annotations
 
-import math
-
 from yade import O
 
 from ...course import strength_reduction
-from ...model import scales
 from ...records import checkpoints
-from ..slope import experiment, slope, slope_packing
+from ..slope import experiment
 
 __all__ = ["folder_of", "load"]
 
@@ -29,16 +26,12 @@ def load(asked, folder, factor, progress=None):
 
     Goes on from a checkpoint in its ``folder``, if there is one. Raises what a slope's run raises.
     """
-    section, world = asked.section, asked.make_world()
+    section = asked.section
     if checkpoints.exists(folder):
         course = experiment.resume(section, folder, progress)
     else:
-        built = slope.build(section, slope_packing.of(section), world)
-        if world is not None:  # rows end with steps
-            row = scales.of(section).row_seconds
-            O.dt = row / math.ceil(row / O.dt)
-        slope.set_strengths(built, asked.strengths(factor), world)
-        course = experiment.Experiment(built, folder, progress=progress)
+        strengths = asked.strengths(factor)
+        course = experiment.begin(section, folder, progress, world=asked.make_world(), strengths=strengths)
     piece = PIECE * course.scales.still_seconds
     said = strength_reduction.loaded(course.state)
     while said is None:

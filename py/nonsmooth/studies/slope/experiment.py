@@ -316,13 +316,14 @@ def _scripted():
     return any(isinstance(e, (PyRunner, PartialEngine)) and not e.dead for e in O.engines)
 
 
-def begin(section, folder, progress=None, packing=None, world=None, damping_moving=None):
+def begin(section, folder, progress=None, packing=None, world=None, damping_moving=None, strengths=None):
     """A new :class:`Experiment` of a Section: packed, built and bonded.
 
     ``packing``: a Packing whose layers are the section's, that of :func:`.slope_packing.of` (from the cache) unless
     given; ``world``: one of :mod:`worlds`, rigid disks with the section's numerics (:func:`.slope.hard`) unless given;
     ``progress``, ``damping_moving``: as of Experiment. Rows of soft contacts come at the times of those of rigid disks:
-    their step is shortened until it divides a row.
+    their step is shortened until it divides a row. ``strengths``: materials whose strengths the slope has instead of
+    the section's from its first step on, as of :func:`.slope.set_strengths`.
 
     Raises ArgumentError for what is no Section, no folder or no Packing, WorldError for what is no world or has no such
     damping, and what slope_packing.of and slope.build raise.
@@ -346,6 +347,8 @@ def begin(section, folder, progress=None, packing=None, world=None, damping_movi
     if not slope.is_hard(built):
         row = scales.of(section).row_seconds
         O.dt = row / math.ceil(row / O.dt)
+    if strengths is not None:
+        slope.set_strengths(built, strengths, world)
     course = Experiment(built, folder, progress=progress, damping_moving=damping_moving)
     course.state.wall_packing_s = seconds
     return course
