@@ -1,5 +1,5 @@
 #include "GroundMotionEngine.hpp"
-#include "Refusal.hpp"
+#include "ListChecks.hpp"
 #include "YadeFeatures.hpp"
 #include "seam/Resident.hpp"
 #include <core/Scene.hpp>
@@ -10,29 +10,18 @@ YADE_PLUGIN((GroundMotionEngine));
 
 namespace {
 	[[noreturn]] void refuse(const string& why) { throw std::invalid_argument("GroundMotionEngine: " + why); }
-
-	void checkNumbers(const char* name, const vector<Real>& values)
-	{
-		for (size_t k = 0; k < values.size(); ++k)
-			if (!nscd::isNumber(values[k]))
-				refuse(string(name) + "[" + std::to_string(k) + "] = " + nscd::number(values[k])
-				       + ": give a finite number");
-	}
 }
 
 void GroundMotionEngine::validate() const
 {
 	for (const auto& [name, values] :
 	     { std::pair("times", &times), std::pair("horizontal", &horizontal), std::pair("vertical", &vertical) })
-		checkNumbers(name, *values);
+		nscd::requireNumbers("GroundMotionEngine", name, *values);
 	for (const auto& [name, values] : { std::pair("horizontal", &horizontal), std::pair("vertical", &vertical) })
 		if (!values->empty() && values->size() != times.size())
 			refuse(string(name) + " has " + std::to_string(values->size()) + " entries and times "
 			       + std::to_string(times.size()) + ": give an acceleration for each time, or none");
-	for (size_t k = 1; k < times.size(); ++k)
-		if (!(times[k] > times[k - 1]))
-			refuse("times[" + std::to_string(k - 1) + "] = " + nscd::number(times[k - 1]) + " and times["
-			       + std::to_string(k) + "] = " + nscd::number(times[k]) + ": times must rise");
+	nscd::requireRising("GroundMotionEngine", times, true);
 }
 
 const nscd::AccelerationRecord& GroundMotionEngine::record()

@@ -1,7 +1,7 @@
 #include "PorePressureEngine.hpp"
 #include "Gravity.hpp"
 #include "PythonBytes.hpp"
-#include "Refusal.hpp"
+#include "ListChecks.hpp"
 #include "SameBody.hpp"
 #include "YadeFeatures.hpp"
 #include "seam/Resident.hpp"
@@ -13,18 +13,6 @@ namespace yade {
 
 YADE_PLUGIN((PorePressureEngine));
 CREATE_LOGGER(PorePressureEngine);
-
-namespace {
-	[[noreturn]] void refuse(const string& name, Real value)
-	{
-		throw std::invalid_argument(
-		        "PorePressureEngine: " + name + " = " + nscd::number(value) + ": give a finite number");
-	}
-	[[noreturn]] void refuse(const char* name, size_t place, Real value)
-	{
-		refuse(string(name) + "[" + std::to_string(place) + "]", value);
-	}
-}
 
 void PorePressureEngine::validate() const
 {
@@ -40,7 +28,10 @@ void PorePressureEngine::validate() const
 	     { std::pair("planePoint", &planePoint), std::pair("planeNormal", &planeNormal),
 	       std::pair("pressureGradient", &pressureGradient) })
 		for (int k = 0; k < 3; ++k)
-			if (!nscd::isNumber((*values)[k])) refuse(name, k, (*values)[k]);
+			if (!nscd::isNumber((*values)[k]))
+				throw std::invalid_argument(
+				        string("PorePressureEngine: ") + name + "[" + std::to_string(k)
+				        + "] = " + nscd::number((*values)[k]) + ": give a finite number");
 	for (const auto& [name, values] :
 	     { std::pair("planeNormal", &planeNormal), std::pair("pressureGradient", &pressureGradient) })
 		if ((*values)[2] != 0)
@@ -58,19 +49,10 @@ Real PorePressureEngine::heightAt(Real time) const
 		throw std::invalid_argument(
 		        "PorePressureEngine: times has " + std::to_string(times.size()) + " entries and heights "
 		        + std::to_string(heights.size()) + ": give as many of both");
-	const auto check = [](const char* name, const vector<Real>& values) {
-		for (size_t k = 0; k < values.size(); ++k)
-			if (!nscd::isNumber(values[k])) refuse(name, k, values[k]);
-	};
-	check("times", times);
-	check("heights", heights);
+	nscd::requireNumbers("PorePressureEngine", "times", times);
+	nscd::requireNumbers("PorePressureEngine", "heights", heights);
 	if (times.empty()) return 0;
-	for (size_t k = 1; k < times.size(); ++k)
-		if (times[k] < times[k - 1])
-			throw std::invalid_argument(
-			        "PorePressureEngine: times[" + std::to_string(k - 1)
-			        + "] = " + nscd::number(times[k - 1]) + " and times[" + std::to_string(k)
-			        + "] = " + nscd::number(times[k]) + ": times must rise");
+	nscd::requireRising("PorePressureEngine", times, false);
 	if (time <= times.front()) return heights.front();
 	if (time >= times.back()) return heights.back();
 	const size_t k = std::upper_bound(times.begin(), times.end(), time) - times.begin();

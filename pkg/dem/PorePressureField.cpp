@@ -1,5 +1,5 @@
 #include "PorePressureField.hpp"
-#include "Refusal.hpp"
+#include "ListChecks.hpp"
 #include <algorithm>
 #include <core/Scene.hpp>
 
@@ -9,14 +9,6 @@ YADE_PLUGIN((PorePressureField));
 
 namespace {
 	[[noreturn]] void refuse(const string& why) { throw std::invalid_argument("PorePressureField: " + why); }
-
-	void checkNumbers(const char* name, const vector<Real>& values)
-	{
-		for (size_t k = 0; k < values.size(); ++k)
-			if (!nscd::isNumber(values[k]))
-				refuse(string(name) + "[" + std::to_string(k) + "] = " + nscd::number(values[k])
-				       + ": give a finite number");
-	}
 }
 
 void PorePressureField::validate() const
@@ -29,12 +21,9 @@ void PorePressureField::validate() const
 			if (!nscd::isNumber(nodes[k][c]))
 				refuse("nodes[" + std::to_string(k) + "][" + std::to_string(c)
 				       + "] = " + nscd::number(nodes[k][c]) + ": give a finite number");
-	checkNumbers("times", times);
-	checkNumbers("pressures", pressures);
-	for (size_t k = 1; k < times.size(); ++k)
-		if (!(times[k] > times[k - 1]))
-			refuse("times[" + std::to_string(k - 1) + "] = " + nscd::number(times[k - 1]) + " and times["
-			       + std::to_string(k) + "] = " + nscd::number(times[k]) + ": times must rise");
+	nscd::requireNumbers("PorePressureField", "times", times);
+	nscd::requireNumbers("PorePressureField", "pressures", pressures);
+	nscd::requireRising("PorePressureField", times, true);
 	const size_t states = std::max<size_t>(1, times.size());
 	if (pressures.size() != states * nodes.size())
 		refuse("pressures has " + std::to_string(pressures.size()) + " entries: give one for each of the "
