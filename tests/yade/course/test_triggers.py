@@ -85,4 +85,6 @@ def test_contacts_are_computed_tightly_while_the_ground_shakes_and_no_tighter():
 
 def test_the_bar_foresees_the_record():
     assert course.foreseen(state(), 10.0, DRY) == 4.0 + DRY.stages.dry + 31.0 + 55.0
-    assert course.foreseen(state(moving=1.0), 10.0, DRY) == max(1.0 + 55.0, T0 + 31.0)
+    late = dataclasses.replace(DRY, shaking=dataclasses.replace(DRY.shaking, begin=60.0))
+    assert course.foreseen(state(moving=10.0), 10.0, late) == T0 + 90.0
+    assert course.foreseen(state(moving=10.0), 10.0, DRY) == 10.0 + 55.0  # an avalanche that goes on after it

@@ -98,12 +98,22 @@ def test_a_mirrored_slope_slips_as_far():
 
 
 def test_a_level_surface_slips_towards_the_side():
-    """Of a slope that falls to the left, by another surface, a level one slips to the left too."""
-    made = section.load("chair")
-    assert made.side == 1.0
-    level = [s for s in surface_slip.surfaces(made, snapshot()) if abs(s.way[1]) < 0.2]
-    assert level and all(one.way[0] > 0 for one in level)
-    assert all(one.way[0] < 0 for one in surface_slip.surfaces(similar.mirrored(made), snapshot(x=-np.arange(6.0))))
+    """Of a slope that falls to the left by another surface, a level one slips to the left too."""
+    made = section.of(
+        name="chair",
+        walls=[
+            dict(name="seat", role="slip", material="plane", vertices=[[-10, 0], [0, 0]]),
+            dict(name="back", role="slip", material="plane", vertices=[[0, 0], [10, 10]]),
+        ],
+        layers=[dict(name="rock", material="rock", vertices=[[-8, 0], [0, 0], [8, 8], [0, 8]])],
+        materials=two_layers()[0].given.data["materials"],
+        disks=dict(diameter=[0.5, 1.0]),
+    )
+    assert made.side == -1.0
+    seat, back = surface_slip.surfaces(made, snapshot())
+    assert seat.way == (-1.0, 0.0) and back.way == pytest.approx((-math.sqrt(0.5), -math.sqrt(0.5)))
+    seat, _ = surface_slip.surfaces(similar.mirrored(made), snapshot())[::-1]
+    assert seat.way == (1.0, 0.0)
 
 
 def test_a_surface_that_nothing_touched_has_no_displacement():

@@ -103,6 +103,8 @@ def test_a_run_that_ends_before_the_record_is_refused():
     with pytest.raises(section.SectionError) as info:
         slope(said)  # which ends 30 s after settling, with a dry rest of 0.2 s
     assert str(info.value).endswith("give stages.end.time of 43 s and more") and "42 s after t0" in str(info.value)
+    with pytest.raises(section.SectionError, match="43 s and more"):  # the dry rest counts too
+        slope(said, stages=data(said)["stages"] | {"end": {"time": 42.1}})
     longer = data(said)
     longer["stages"]["end"]["time"] = 43.0
     assert section.of(longer).shaking.end == 42.0

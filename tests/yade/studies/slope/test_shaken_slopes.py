@@ -171,6 +171,7 @@ def test_what_moves_while_it_shakes_has_failed_by_shaking(tmp_path):
     assert summary["verdict"] == "failed by shaking" and summary["failed_dry_s"] is None
     assert "after the record began, whose largest acceleration is 8 m/s²" in summary["verdict_says"]
     assert summary["times_s"]["t2"] is not None
+    assert "a script" not in summary["verdict_says"] and course.state.outside == 0.0
 
 
 def test_slip_surfaces_are_found_again_after_a_resume(shaken, tmp_path):
