@@ -103,7 +103,7 @@ def test_a_level_surface_slips_towards_the_side():
         name="chair",
         walls=[
             dict(name="seat", role="slip", material="plane", vertices=[[-10, 0], [0, 0]]),
-            dict(name="back", role="slip", material="plane", vertices=[[0, 0], [10, 10]]),
+            dict(name="back", role="slip", material="plane", vertices=[[0, 0], [20, 20]]),
         ],
         layers=[dict(name="rock", material="rock", vertices=[[-8, 0], [0, 0], [8, 8], [0, 8]])],
         materials=two_layers()[0].given.data["materials"],
