@@ -68,14 +68,17 @@ def test_what_is_left_out_is_the_papers_in_proportion():
     small = {k: v for k, v in data_of(quarter, "gravity", "seed", "stages", "numerics").items()}
     small["water"] = {"plane": "DP", "table": {"rate": 1.0}}
     small = section.of(small)
-    ask = lambda s: (
-        s.stages.dry,
-        s.stages.end.time,
-        s.stages.settle.speed_rest,
-        s.numerics.time_step,
-        s.release_distance,
-        s.stages.end.rest_fraction,
-    )  # noqa: E731
+
+    def ask(s):
+        return (
+            s.stages.dry,
+            s.stages.end.time,
+            s.stages.settle.speed_rest,
+            s.numerics.time_step,
+            s.release_distance,
+            s.stages.end.rest_fraction,
+        )
+
     assert ask(small) == pytest.approx(ask(quarter), rel=1e-9)
     # on the Moon all goes slower
     moon = section.of(bare, gravity=9.81 / 4)

@@ -140,7 +140,9 @@ def test_a_slope_that_stood_says_how_far_the_water_came():
 
 
 def test_one_that_neither_moves_off_nor_rests():
-    speed = lambda at: RESTING | {"speed_mean_m_per_s": lambda t: np.full(len(t), at)}  # noqa: E731
+    def speed(at):
+        return RESTING | {"speed_mean_m_per_s": lambda t: np.full(len(t), at)}
+
     assert of(moving=None, columns=speed(0.0199)).kind == "stood"
     assert of(moving=None, columns=speed(0.0201)).kind == "not at rest"  # of the shipped section's 0.02 m/s
 
