@@ -43,7 +43,7 @@ NAMES = ("slip_m", "moves_s", "front_travel_m", "speed_mean_max_m_per_s", "depos
 told = {}
 for name, rows in (("shaken", means), ("wet", campaign.means(rain, ["seed"]))):
     for row in rows:
-        key = f"{name} {row['values'][KEY]:g}" if KEY in row["values"] else name
+        key = f"{name}_{row['values'][KEY]:g}".replace(".", "_") if KEY in row["values"] else name
         one = told.setdefault(key, {"packings": row["of"], "failed": 0, "stood": 0})
         kind = "failed" if row["verdict"].startswith("failed by") else "stood"
         one[kind] += len(row["seeds"])

@@ -206,11 +206,11 @@ def test_the_script_that_compares_peaks(tmp_path):
     )
     assert done.returncode == 0, done.stderr
     told = json.loads((tmp_path / "out" / "shaken.json").read_text())
-    assert (told["shaken 1"]["stood"], told["shaken 1"]["failed"]) == (2, 0)
-    assert (told["shaken 30"]["stood"], told["shaken 30"]["failed"]) == (0, 2)
+    assert (told["shaken_1"]["stood"], told["shaken_1"]["failed"]) == (2, 0)
+    assert (told["shaken_30"]["stood"], told["shaken_30"]["failed"]) == (0, 2)
     for seed in (1, 2):
         end = json.loads((tmp_path / "out" / "runs" / f"peak=30.0_seed={seed}" / "summary.json").read_text())
-        numbers = told["shaken 30"]["when_failed"]
+        numbers = told["shaken_30"]["when_failed"]
         assert numbers["slip_m"]["values"][seed - 1] == end["displacements_m"]["DP"]
         moved = end["times_s"]["t2"] - end["times_s"]["t0"] - end["shaking"]["begin_s"]
         assert numbers["moves_s"]["values"][seed - 1] == moved > 0
