@@ -236,7 +236,7 @@ MUTANTS = (
            "test_compared_runs.py::test_a_biaxial_test_in_both_worlds[rigid]"),
     mutant("soft-biaxial-ramp", PY + "studies/laboratory/biaxial.py", "(2 * RAMP)", "RAMP", "the soft platens take up their speed in half of the strain",
            "test_compared_runs.py::test_a_biaxial_test_in_both_worlds[rigid]"),
-    mutant("soft-biaxial-sums", PY + "studies/laboratory/biaxial.py", "sums.get(name, 0.0) + force / len(parts)", "sums.get(name, 0.0) + force", "forces on soft walls are sums of their samples",
+    mutant("soft-biaxial-sums", PY + "studies/laboratory/sample_course.py", "sums.get(name, 0.0) + force / len(parts)", "sums.get(name, 0.0) + force", "forces on soft walls are sums of their samples",
            "test_compared_runs.py::test_a_biaxial_test_in_both_worlds[rigid]"),
     mutant("soft-biaxial-pressure", PY + "studies/laboratory/sample.py", "pressure * min(1.0, (k + 1) / ramp)", "0.5 * pressure * min(1.0, (k + 1) / ramp)", "soft samples bear half of the pressure",
            "test_compared_runs.py::test_a_biaxial_test_in_both_worlds[rigid]"),
