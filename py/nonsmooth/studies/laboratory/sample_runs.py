@@ -12,7 +12,7 @@ from ...running import processes, side_by_side
 from ...system import checks
 from . import pressing
 
-__all__ = ["CampaignError", "checked", "run"]
+__all__ = ["CampaignError", "checked", "run", "run_one"]
 
 
 class CampaignError(UserError, RuntimeError):
@@ -60,6 +60,14 @@ def run(made, out, threads, function, advice, resume=False, progress=lambda shar
     for folder in folders:
         shutil.rmtree(folder / "checkpoint", ignore_errors=True)
     return folders
+
+
+def run_one(test, out, key, function, resume=False):
+    """The same of one test in the folder ``out`` itself."""
+    _press({test.shape}, Path(out), 1, lambda share, doing: None)
+    one = side_by_side.Run(str(out), Path(out), function, asdict(test), key)
+    side_by_side.run([one], 1, resume, CampaignError, go_on=True)
+    shutil.rmtree(Path(out) / "checkpoint", ignore_errors=True)
 
 
 def _press(shapes, home, threads, progress):
