@@ -111,7 +111,10 @@ def test_the_weakest_cut_of_a_grid_is_its_weakest_row():
 def test_a_bond_counts_with_its_component_along_the_pull_and_jams_where_it_would_slip():
     """Two disks below one: bonds at 30° to the pull; with more friction than tan 60° they jam."""
     x, y = [0.0, 1.0, 0.5], [0.0, 0.0, math.sqrt(0.75)]
-    find = lambda mu: weakest_cut.find(x, y, [(0, 2), (2, 1)], [5.0, 5.0], mu, [0, 1], [2])  # noqa: E731
+
+    def find(mu):
+        return weakest_cut.find(x, y, [(0, 2), (2, 1)], [5.0, 5.0], mu, [0, 1], [2])
+
     assert find(0.3).force == pytest.approx(2 * 5 * math.sqrt(0.75), rel=1e-4) and len(find(0.3).bonds) == 2
     assert find(1.8).force > 1e4 and find(1.7).force == find(0.3).force
 
@@ -137,7 +140,10 @@ def test_a_cut_of_known_height():
     """c = 85.9 kPa, φ = 37.2°, γ = 20.6 kN/m³: the plane's height is 33.6 m (the facts); half of it without tensile
     strength, and the log spiral's with much of it.
     """
-    cut = lambda t: vertical.vertical_cut(85.9e3, 37.2, t, 20.6e3)  # noqa: E731
+
+    def cut(t):
+        return vertical.vertical_cut(85.9e3, 37.2, t, 20.6e3)
+
     none, much = cut(0.0), cut(100e3)
     assert none.plane == pytest.approx(33.6, abs=0.05)
     assert (none.height, none.crack, none.cracked) == (none.plane / 2, none.plane / 2, True)
