@@ -198,6 +198,19 @@ FAR = [{"name": "far", "material": "ss", "vertices": [[70.0, 30.0], [72.0, 30.0]
 SEAT = [{"name": "seat", "material": "ss", "vertices": [[70.0, 40.0], [80.0, 38.0]], "apart": True}]
 BASE = data()
 
+LINES = [{"time": 0.0, "points": [[-40.0, 15.0], [5.0, 0.5]]}, {"time": 2.0, "points": [[-40.0, 15.0], [5.0, 1.5]]}]
+
+
+def water(**keys):
+    """Changes: this water instead of the table."""
+    return {("water",): keys, ("stages", "water"): None}
+
+
+def pressure(m, place=(-10.0, 3.0), time=0.0):
+    """What the engine's field has at a place and a time after t0 [Pa]."""
+    return float(m.run.slope.water.field.at(Vector3(*place, 0), m.run.state.t0 + time)[0])
+
+
 OF_TABLE = {(*ROCK,): {"cohesion": 2e3, "friction_angle": 34.0, "density": 2500.0}}
 
 #: key: changes, where they are found, and what is found there; a list where a key acts in several places or takes
@@ -505,6 +518,30 @@ WHERE = {
             for sign, slides in ((-1, True), (1, False))
         ),
     ],
+    ("water", "phreatic", "lines", "*", "time"): (
+        water(phreatic={"lines": LINES}),
+        lambda m: (pressure(m, time=1.0), list(m.run.field.times)),
+        (pytest.approx(9810 * (0.5 + 14.5 / 3 + 1 / 3 - 3)), [0.0, 2.0]),
+        0.3,
+    ),
+    ("water", "phreatic", "lines", "*", "points"): (
+        water(phreatic={"lines": LINES}),
+        lambda m: (pressure(m), pressure(m, time=2.0)),
+        (pytest.approx(9810 * (0.5 + 14.5 / 3 - 3)), pytest.approx(9810 * (1.5 + 13.5 / 3 - 3))),
+        0.3,
+    ),
+    ("water", "phreatic", "flow"): (
+        water(phreatic={"lines": LINES, "flow": "along"}),
+        pressure,
+        pytest.approx(9810 * (0.5 + 14.5 / 3 - 3) / (1 + (14.5 / 45) ** 2)),
+        0.3,
+    ),
+    ("water", "outside"): (
+        water(phreatic={"lines": [{"time": 0.0, "points": [[-20.0, 8.0], [5.0, 0.5]]}]}, outside="dry"),
+        lambda m: tuple(m.run.slope.water.field.at(Vector3(-30.0, 0.0, 0), 1.0)),
+        (None, None),
+        0.3,
+    ),
     # its old name, of the force per volume
     ("water", "gradient"): [
         (

@@ -67,7 +67,7 @@ def plain(section) -> dict:
         "stages": {
             "settle": dataclasses.asdict(stages.settle),
             "dry": stages.dry,
-            "water": {"hold": stages.water_hold},
+            **({} if section.water_field else {"water": {"hold": stages.water_hold}}),
             "end": dataclasses.asdict(stages.end),
         },
         "numerics": {k: v for k, v in dataclasses.asdict(section.numerics).items() if v is not None},
@@ -76,7 +76,9 @@ def plain(section) -> dict:
         data["unusual"] = list(section.unusual)
     if not section.interfaces:
         del data["interfaces"]
-    if water is not None:
+    if section.water_field is not None:
+        data["water"] = _field(water)
+    elif water is not None:
         # the rate goes on from the last point, and a file has one of the two
         table = {"rate": water.rate} if water.table == ((0.0, 0.0),) else {"points": [list(p) for p in water.table]}
         data["water"] = {
@@ -92,6 +94,18 @@ def plain(section) -> dict:
             "release_distance": water.release_distance,
         }
     return data
+
+
+def _field(water) -> dict:
+    """The keys and values of a FieldWater in a section file."""
+    common = {
+        "unit_weight": water.unit_weight,
+        "volume": water.volume,
+        "outside": water.outside,
+        "release_distance": water.release_distance,
+    }
+    lines = [{"time": time, "points": [list(p) for p in points]} for time, points in water.lines]
+    return {"phreatic": {"lines": lines, "flow": water.flow}} | common
 
 
 def material(m) -> dict:

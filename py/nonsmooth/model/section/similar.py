@@ -39,6 +39,8 @@ POWERS = {
     "water.table.rate": SPEED,
     "water.table.points": (TIME, LENGTH),
     "water.release_distance": LENGTH,
+    "water.phreatic.lines.time": TIME,
+    "water.phreatic.lines.points": LENGTH,
     "stages.settle.ramp": TIME,
     "stages.settle.time_max": TIME,
     "stages.settle.speed_rest": SPEED,
@@ -81,6 +83,8 @@ def _mirrored(data):
     if isinstance(water.get("plane"), dict):
         point, dip = water["plane"]["point"], water["plane"]["dip"]
         water["plane"] = {"point": flipped([point])[0], "dip": 0.0 - dip}
+    for line in water.get("phreatic", {}).get("lines", ()):
+        line["points"] = flipped(reversed(line["points"]))
     if isinstance(water.get("pressure_gradient"), list):
         x, y = water["pressure_gradient"]
         water["pressure_gradient"] = [0.0 - x, y]
@@ -161,6 +165,8 @@ def _scaled(data, factor):
 def _value(key, value, factor):
     if isinstance(value, dict):
         return {word: _value(f"{key}.{word}", inside, factor) for word, inside in value.items()}
+    if isinstance(value, list) and all(isinstance(item, dict) for item in value):
+        return [_value(key, item, factor) for item in value]
     power = POWERS.get(key)
     return copy.deepcopy(value) if power is None else _times(value, power, factor)
 

@@ -121,7 +121,17 @@ def build(section, packing, world=None) -> Slope:
     ]
     ids = O.bodies.append(disks)
     before = []
-    if section.water is not None:
+    if section.water_field is not None:
+        before.append(
+            PorePressureEngine(
+                label="porePressure",
+                unitWeight=section.water.unit_weight,
+                planeNormal=Vector3(*section.normal, 0),  # upright to the way downslope; dry until it has a field
+                releaseDistance=section.release_distance,
+                volumeFactor=_volume_factor(section),
+            )
+        )
+    elif section.water is not None:
         w = section.water
         before.append(
             PorePressureEngine(
@@ -131,7 +141,7 @@ def build(section, packing, world=None) -> Slope:
                 planeNormal=Vector3(*w.normal, 0),
                 pressureGradient=Vector3(*w.pressure_gradient_xy, 0),
                 releaseDistance=section.release_distance,
-                volumeFactor=1.0 if w.volume == "disk" else 1 / section.disks.packing_fraction,
+                volumeFactor=_volume_factor(section),
             )
         )
     O.engines = world.engines(gravity=(0, -section.gravity, 0), before=before)
@@ -152,6 +162,11 @@ def build(section, packing, world=None) -> Slope:
     layer = packing.layer[order]
     built.solver = world.measures([(m, (ids[0] + np.flatnonzero(layer == k)).tolist()) for k, m in enumerate(rocks)])
     return built
+
+
+def _volume_factor(section):
+    """Volume on which the water's pressure gradient acts, in units of a disk's own."""
+    return 1.0 if section.water.volume == "disk" else 1 / section.disks.packing_fraction
 
 
 def interface_law(slope: Slope, interface):

@@ -133,6 +133,9 @@ def _water(series, section, disks, time=None):
         float(np.max(series[name])) if time is None else _at(series, name, time) for name in ("water_m", "wet_disks")
     )
     most = " at most" if time is None else ""
+    if section.water_field is not None:
+        share = f" and {wet:,.0f} disks wet" + (f" ({100 * wet / disks:.0f} %)" if disks else "")
+        return f", with a mean pressure head of {table:.4g} m on the slip surface{most}{share}" if wet else ", dry"
     if not wet:
         return f", with the water table at {table:.4g} m{most}, below all disks" if table else ", dry"
     share = f" ({100 * wet / disks:.0f} %)" if disks else ""
