@@ -7,8 +7,14 @@ import dataclasses
 from types import MappingProxyType
 
 from .. import geometry, rocks, roles
-from . import checks as section_checks, defaults as section_defaults, units as section_units, values as section_values
-from . import water as section_water
+from . import (
+    checks as section_checks,
+    defaults as section_defaults,
+    shaking as section_shaking,
+    units as section_units,
+    values as section_values,
+    water as section_water,
+)
 from .section import Section
 from .parts import (
     Disks,
@@ -32,6 +38,7 @@ def build(document, source: str) -> Section:
     """Section from a document that meets the schema; the checks that a schema cannot make."""
     section_checks.check_extent(document)
     _take_old_names(document)
+    section_shaking.complete(document)
     section_units.check(document)
     kind = section_water.kind_of(document) if "water" in document.data else None
     given = copy.deepcopy(document.data)
@@ -77,8 +84,10 @@ def build(document, source: str) -> Section:
         interfaces=interfaces,
         pressed=size.get("pressed", False),
         unusual=tuple(raw.get("unusual", ())),
+        shaking=section_shaking.made(document),
     )
     section_checks.check(section, document)
+    section_shaking.check_end(section, document)
     if "water" in raw:
         water = _water(raw["water"], section, document) if kind == "table" else section_water.read(document)
         section = dataclasses.replace(section, water=water)

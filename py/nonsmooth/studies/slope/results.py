@@ -26,9 +26,10 @@ from ...measure.characteristic_times import (
 from ...measure.ground import ground_of
 from ...measure.surface import deposit_profile, on_ground
 from ...model import scales
-from ...model.section import data as section_data
+from ...model.section import data as section_data, shaking as section_shaking
 from ...system.whole_files import remove, remove_parts, whole, write_json
 from . import frames, verdict
+from .columns import PERMANENT
 
 __all__ = [
     "check_folder",
@@ -50,7 +51,7 @@ HEAD = b"step,time_s,"  # begins the series of every run
 SUMMARY, BREAKS, BEGIN, END = "summary.json", "breaks.csv", "t0.npz", "end.npz"
 SNAPSHOTS, PARAVIEW = frames.FOLDER, "vtk"
 #: Names of the figures in the order in which they are drawn; of their files with ".png".
-PICTURES = tuple("force_chains forces snapshots weakening toe deposit energy solver".split())
+PICTURES = tuple("force_chains forces snapshots weakening toe deposit shaking energy solver".split())
 FIGURES = (*(f"{name}.png" for name in PICTURES), "avalanche.mp4")
 
 
@@ -62,7 +63,7 @@ def forget(folder):
     """
     folder = Path(folder)
     remove(
-        [folder / name for name in (SUMMARY, BREAKS, BEGIN, END, *FIGURES)]
+        [folder / name for name in (SUMMARY, BREAKS, BEGIN, END, section_shaking.FILE, *FIGURES)]
         + _written(folder / SNAPSHOTS, r"\d{8,}\.npz")
         + _written(folder / PARAVIEW, r"(disks-\w+|contacts-\w+|walls|breaks)\.vtu|avalanche\.pvd"),
         EARLIER,
@@ -90,7 +91,7 @@ def foreign(folder):
         pass
     if (folder / "key").exists():  # kept_runs has begun one
         return None
-    names = (SERIES, WALLS, SECTION, SUMMARY, BREAKS, BEGIN, END, *FIGURES, "checkpoint")
+    names = (SERIES, WALLS, SECTION, section_shaking.FILE, SUMMARY, BREAKS, BEGIN, END, *FIGURES, "checkpoint")
     found = [folder / name for name in names if (folder / name).exists()]
     found += _written(folder / SNAPSHOTS, r"\d{8,}\.npz") + _written(folder / PARAVIEW, r".*\.(vtu|pvd)")
     return found[0].relative_to(folder).as_posix() if found else None
@@ -311,6 +312,28 @@ def _of_bed(section, start, end):
     )
 
 
+def _of_shaking(section, series):
+    """Of a section that shakes: numbers of the motion, and the displacement along each slip surface [m] so far."""
+    if section.shaking is None:
+        return {}
+    motion = section.shaking.motion
+    return {
+        "shaking": {
+            "record": f"{motion.name} ({motion.source})",
+            "begin_s": section.shaking.begin,
+            "duration_s": motion.duration,
+            "peak_acceleration_m_per_s2": motion.peak_acceleration(),
+            "peak_velocity_m_per_s": motion.peak_velocity(),
+            "arias_intensity_m_per_s": motion.arias_intensity(),
+            "drift_velocity_m_per_s": motion.drift.velocity[0],
+            "drift_displacement_m": motion.drift.displacement[0],
+        },
+        "displacements_m": {
+            name: float(series[records.column(PERMANENT.name, name)][-1]) for name, _ in section.slip_surfaces
+        },
+    }
+
+
 def summarise(folder, section, state, threads=None) -> dict:
     """Reads the records in ``folder``, writes and returns ``summary.json``. Values that the run has not reached are
     null.
@@ -422,7 +445,7 @@ def summarise(folder, section, state, threads=None) -> dict:
     summary["force_stages"] = _force_stages(series, section, times, second, leans)
     for name, between in TOE_BANDS.items():
         summary[name] = _toe_bands(folder, every, section, times, *between)
-    summary |= _of_bed(section, start, end)
+    summary |= _of_bed(section, start, end) | _of_shaking(section, every)
     summary |= _passive(
         section, state["packing_fraction"], summary["water_at_failure_m"], summary["fb_force_at_failure_N_per_m"]
     )
