@@ -10,7 +10,7 @@ Rules:
   mean speed is 0.2 m/s at t0, or comes to that without having been below 0.02 m/s since. The water does not rise, or no
   further; the slope is followed until it rests. What moved it, its weight or something else, says
   :mod:`yade.nonsmooth.studies.slope.verdict`;
-* t0: the dry rest ends, the water begins to rise, and the times of other triggers (:mod:`.triggers`) count from here;
+* t0: the dry rest ends, the water begins to rise, and the times of other triggers (:mod:`yade.nonsmooth.course.triggers`) count from here;
 * moving, t2: the mean speed reaches 0.2 m/s: the slope no longer just follows the water. With ``water.hold: motion``
   the table stays where it is from here on, and the solver's tolerance is ``tolerance_moving``, until the mean speed is
   down to a tenth of its maximum; from there it falls with the speed, down to ``tolerance``. A slope that comes to rest
@@ -249,7 +249,7 @@ def _load_stays(s, seen, section):
 
 
 def loads_since(state):
-    """The time from which triggers count [s], see :func:`.triggers.since`."""
+    """The time from which triggers count [s], see :func:`yade.nonsmooth.course.triggers.since`."""
     return triggers.since(state.t0, state.failed_dry)
 
 

@@ -274,7 +274,7 @@ class GroundMotion:
 
     def stretched(self, factor) -> GroundMotion:
         """The same accelerations, ``factor`` times as slow, a number above 0: all times from the first one on are
-        multiplied by it. A similar slope that is ``factor``² times as large does the same (Froude).
+        multiplied by it. A similar slope, so many times as large as the square of ``factor``, does the same (Froude).
         """
         factor = checks.number("factor", factor, GroundMotionError, "give a number above 0", above=0)
         first = self.times[0]
