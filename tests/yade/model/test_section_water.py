@@ -15,7 +15,9 @@ from nonsmooth import section, similar  # noqa: E402
 from nonsmooth.model.section import data as section_data  # noqa: E402
 from nonsmooth.model.section.reader import SCHEMA, read  # noqa: E402
 from nonsmooth.water import of_section  # noqa: E402
-from nonsmooth.water.fields import FieldError, PhreaticLine  # noqa: E402
+from nonsmooth.water import field_files  # noqa: E402
+from nonsmooth.water.fields import FieldError, MeshField, PhreaticLine  # noqa: E402
+from nonsmooth.water.mesh import grid  # noqa: E402
 
 SMALL = ROOT / "tests" / "data" / "small_slope.yaml"
 LINES = [
@@ -115,6 +117,141 @@ def test_a_section_with_a_table_has_no_field_and_what_is_no_section_is_refused()
         of_section.field("circle")
 
 
+# ---- files ------------------------------------------------------------------------------------------
+@pytest.fixture
+def files(tmp_path):
+    """Files of a field that covers the layers, with two states: HDF5, and two VTK files; (folder, MeshField)."""
+    import meshio
+
+    mesh = grid(np.linspace(-50, 20, 36), np.linspace(-5, 25, 16))
+    x, y = mesh.nodes.T
+    field = MeshField(mesh, [2.0, 4.0], [9810 * (3 - 0.3 * x - y), 9810 * (5 - 0.25 * x - y)])
+    field_files.write(field, tmp_path / "field.h5")
+    for k, pressures in enumerate(field.pressures):
+        cells = [("triangle", mesh.triangles)]
+        meshio.Mesh(np.column_stack((mesh.nodes, 0 * x)), cells, {"p": pressures}).write(tmp_path / f"state{k}.vtk")
+    return tmp_path, field
+
+
+def of_file(folder, **keys):
+    return section.of(data({"field": {"file": str(folder / "field.h5"), **keys}}))
+
+
+def test_a_file_has_its_field_with_its_times(files):
+    folder, field = files
+    found = of_section.field(of_file(folder))
+    assert list(found.times) == [0.0, 2.0, 4.0] and not found.pressures[0].any()
+    assert np.array_equal(found.pressures[1:], field.pressures) and np.array_equal(found.mesh.nodes, field.mesh.nodes)
+    slow = of_section.field(of_file(folder, stretch=3.0))
+    assert list(slow.times) == [0.0, 6.0, 12.0] and np.array_equal(slow.pressures[1:], field.pressures)
+
+
+def test_files_of_states_have_the_times_of_the_section(files):
+    folder, field = files
+    states = [{"time": t, "file": str(folder / f"state{k}.vtk")} for k, t in enumerate((0.0, 7.0))]
+    found = of_section.field(section.of(data({"field": {"states": states, "name": "p", "stretch": 9.0}})))
+    assert list(found.times) == [0.0, 7.0] and found.pressures == pytest.approx(field.pressures, rel=1e-12)
+
+
+def test_paths_of_a_section_file_begin_at_its_folder(files, monkeypatch):
+    import yaml
+
+    folder, _ = files
+    (folder / "slope.yaml").write_text(yaml.safe_dump(data({"field": {"file": "field.h5"}})))
+    monkeypatch.chdir("/")
+    made = section.load(str(folder / "slope.yaml"))
+    assert made.water.files == (str(folder / "field.h5"),)
+    assert section.of(section_data.plain(made)).water == made.water
+
+
+def test_a_mirrored_and_a_larger_field(files):
+    folder, field = files
+    made = of_file(folder)
+    mirrored, large = similar.mirrored(made), similar.scaled(made, 4.0)
+    points = np.random.default_rng(4).uniform((-30, 0), (0, 15), (100, 2))
+    there = of_section.field(mirrored)
+    assert there.pressure(points * (-1, 1), 3.0) == pytest.approx(field.pressure(points, 3.0), rel=1e-9)
+    wide = of_section.field(large)
+    assert list(wide.times) == [0.0, 4.0, 8.0]
+    assert wide.pressure(4 * points, 6.0) == pytest.approx(4 * field.pressure(points, 3.0), rel=1e-9)
+    assert similar.mirrored(mirrored).water == made.water and large.with_values({"seed": 2}).water == large.water
+    assert similar.scaled(section.of(section_data.plain(made)), 4.0).water == large.water
+
+
+def test_a_run_keeps_its_field_beside_its_section(files, tmp_path):
+    folder, field = files
+    made, home = of_file(folder, mirrored=False, stretch=2.0), tmp_path / "run"
+    home.mkdir()
+    found = of_section.field(made)
+    section_data.write(of_section.kept(made, found, home), home / "section.yaml")
+    (folder / "field.h5").unlink()
+    home = home.rename(tmp_path / "moved")
+    again = of_section.field(section.load(str(home / "section.yaml")))
+    assert np.array_equal(again.pressures, found.pressures) and np.array_equal(again.times, found.times)
+    assert np.array_equal(again.mesh.nodes, found.mesh.nodes)
+    assert np.array_equal(again.mesh.triangles, found.mesh.triangles)
+
+
+def test_water_with_other_files_has_another_key(files):
+    folder, field = files
+    one = of_file(folder)
+    field_files.write(MeshField(field.mesh, field.times, 2 * field.pressures), folder / "other.h5")
+    other = section.of(data({"field": {"file": str(folder / "other.h5")}}))
+    (folder / "copy.h5").write_bytes((folder / "field.h5").read_bytes())
+    copied = section.of(data({"field": {"file": str(folder / "copy.h5")}}))
+    assert one.water.key == copied.water.key != other.water.key
+
+
+def test_a_field_must_cover_the_layers(files):
+    folder, _ = files
+    mesh = grid(np.linspace(-30, 20, 26), np.linspace(-5, 25, 16))
+    field_files.write(MeshField(mesh, [0.0], [9810 * (3 - mesh.nodes[:, 1])]), folder / "field.h5")
+    with pytest.raises(FieldError) as error:
+        of_section.field(of_file(folder))
+    said = str(error.value)
+    assert said.startswith("section: water.field: its mesh, which lies within -30, -5, 20, 25 m, does not cover")
+    assert "water.outside: dry" in said
+    made = section.of(data({"field": {"file": str(folder / "field.h5")}, "outside": "dry"}))
+    assert of_section.field(made).pressure([[-35.0, 0.0]], 0.0, outside="dry") == 0
+
+
+def test_a_mesh_with_a_hole_does_not_cover_what_lies_in_it(files):
+    folder, field = files
+    keep = np.linalg.norm(field.mesh.nodes[field.mesh.triangles].mean(axis=1) - (-16.0, 9.0), axis=1) > 3.0
+    from nonsmooth.water.mesh import Mesh
+
+    holed = Mesh.of(field.mesh.nodes, field.mesh.triangles[keep])
+    field_files.write(MeshField(holed, [0.0], [np.zeros(len(holed.nodes))]), folder / "field.h5")
+    with pytest.raises(FieldError, match="does not cover the layers"):
+        of_section.field(of_file(folder))
+
+
+def test_files_that_are_refused(files):
+    folder, _ = files
+    said = []
+    for field in (
+        {"file": str(folder / "none.h5")},
+        {"file": str(folder / "field.h5"), "sha256": 64 * "0"},
+        {"file": str(folder / "field.h5"), "states": [{"time": 0.0, "file": "x"}]},
+        {},
+        {"states": [{"time": 1.0, "file": str(folder / "state0.vtk")}, {"time": 1.0, "file": "x"}]},
+    ):
+        with pytest.raises(section.SectionError) as error:
+            section.of(data({"field": field}))
+        said.append(str(error.value))
+    parts = (
+        ("water.field.file", "none.h5 cannot be read (No such file", "HDF5"),
+        ("water.field.sha256", "has the checksum", "leave `sha256` out"),
+        ("water.field: has both `file` and `states`", "give one file"),
+        ("water.field: has neither `file` nor `states`", "give one file"),
+        ("water.field.states[1].time: the time 1 s does not follow 1 s", "rising"),
+    )
+    for one, wanted in zip(said, parts):
+        assert all(part in one for part in wanted) and "\n" not in one, one
+    with pytest.raises(FieldError, match="^section: water.field: .*field.h5: has no dataset q; it has"):
+        of_section.field(of_file(folder, name="q"))
+
+
 # ---- what is refused --------------------------------------------------------------------------------
 def put(*way, value):
     def change(made):
@@ -134,7 +271,11 @@ REFUSED = {
         "water.phreatic: pressure_gradient and phreatic",
         "keep one",
     ),
-    "no kind": (lambda made: made["water"].pop("phreatic"), "the key 'plane' is missing", "phreatic instead"),
+    "no kind": (
+        lambda made: made["water"].pop("phreatic"),
+        "the key 'plane' is missing",
+        "phreatic, field or seepage instead",
+    ),
     "held": (
         put("stages", "water", value={"hold": "motion"}),
         "stages.water.hold: a water table can be held, and this water is water.phreatic",
@@ -185,10 +326,7 @@ def test_what_is_refused_is_named_with_its_value_and_a_remedy(case):
 
 
 def test_lines_without_a_common_part_are_refused():
-    lines = [
-        {"time": 0.0, "points": [[-40.0, 5.0], [-30.0, 5.0]]},
-        {"time": 1.0, "points": [[-20.0, 5.0], [0.0, 1.0]]},
-    ]
+    lines = [{"time": 0.0, "points": [[-40.0, 5.0], [-30.0, 5.0]]}, {"time": 1.0, "points": [[-20.0, 5.0], [0.0, 1.0]]}]
     made = section.of(data({"phreatic": {"lines": lines}, "outside": "dry"}))
     with pytest.raises(FieldError, match="section: water.phreatic.lines: the lines have no x in common"):
         of_section.field(made)

@@ -39,6 +39,7 @@ def build(document, source: str) -> Section:
     section_checks.check_extent(document)
     _take_old_names(document)
     section_shaking.complete(document)
+    section_water.complete(document)
     section_units.check(document)
     kind = section_water.kind_of(document) if "water" in document.data else None
     given = copy.deepcopy(document.data)

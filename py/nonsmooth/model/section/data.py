@@ -9,7 +9,7 @@ import dataclasses
 import yaml
 
 from ...system.whole_files import write_atomically
-from . import shaking as section_shaking
+from . import shaking as section_shaking, water as section_water
 
 __all__ = ["FILE", "material", "plain", "write"]
 
@@ -78,7 +78,7 @@ def plain(section) -> dict:
     if not section.interfaces:
         del data["interfaces"]
     if section.water_field is not None:
-        data["water"] = _field(water)
+        data["water"] = section_water.plain(water)
     elif water is not None:
         # the rate goes on from the last point, and a file has one of the two
         table = {"rate": water.rate} if water.table == ((0.0, 0.0),) else {"points": [list(p) for p in water.table]}
@@ -97,18 +97,6 @@ def plain(section) -> dict:
     if section.shaking is not None:
         data["shaking"] = section_shaking.plain(section.shaking)
     return data
-
-
-def _field(water) -> dict:
-    """The keys and values of a FieldWater in a section file."""
-    common = {
-        "unit_weight": water.unit_weight,
-        "volume": water.volume,
-        "outside": water.outside,
-        "release_distance": water.release_distance,
-    }
-    lines = [{"time": time, "points": [list(p) for p in points]} for time, points in water.lines]
-    return {"phreatic": {"lines": lines, "flow": water.flow}} | common
 
 
 def material(m) -> dict:

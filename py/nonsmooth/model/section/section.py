@@ -15,10 +15,10 @@ import numpy as np
 from ...system import checks
 from .. import free_surface, geometry, roles, stacks
 from . import data as section_data, values as section_values
+from .field_water import FieldWater
 from .parts import Disks, Envelope, Interface, Layer, Material, Numerics, Stages, Wall, Water, normal_of
 from .reader import SectionError
 from .shaking import Shaking
-from .water import FieldWater
 
 __all__ = ["Section"]
 

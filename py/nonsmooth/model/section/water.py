@@ -1,5 +1,5 @@
-"""Water of a section that is no table above a plane: below phreatic lines. Plain data, and the checks that a schema
-cannot make. Needs no YADE.
+"""Water of a section that is no table above a plane: below phreatic lines, with pressures from files, or seeping. Plain
+data, and the checks that a schema cannot make. Needs no YADE.
 
 Times are in s since t0, the end of the dry rest. Until then it is dry; from t0 to the first state's time the pressures
 grow from 0 to those of this state, between two states they are linear in time, and after the last they stay.
@@ -7,34 +7,37 @@ grow from 0 to those of this state, between two states they are linear in time, 
 
 from __future__ import annotations
 
+import hashlib
 from dataclasses import dataclass
-from typing import ClassVar
+from pathlib import Path
 
 import numpy as np
 
 from .. import geometry
+from . import seepage
+from .field_water import FieldWater, rising
 from .parts import points_of
 
-__all__ = ["FieldWater", "KINDS", "PhreaticLines", "check", "kind_of", "read"]
+__all__ = [
+    "FieldFiles",
+    "FieldWater",
+    "KINDS",
+    "PhreaticLines",
+    "check",
+    "complete",
+    "kind_of",
+    "mirror",
+    "plain",
+    "read",
+]
 
 #: Keys below ``water``, of which a section has one, and those that go with each.
-KINDS = {"table": ("plane", "table", "pressure_gradient"), "phreatic": ("phreatic",)}
-
-
-@dataclass(frozen=True)
-class FieldWater:
-    """Water with a pressure of its own at each place: `unit_weight` γ_w [N/m³]; `volume`: "disk" or "bulk", on which
-    −∇p acts; `release_distance`: as of :class:`.parts.Water`; `outside`: "refuse" a field that does not cover the
-    layers, or take it for "dry" there.
-    """
-
-    unit_weight: float
-    volume: str
-    release_distance: str | float
-    outside: str
-
-    wall: ClassVar[None] = None  # of a plane, as of parts.Water
-    rate: ClassVar[float] = 0.0
+KINDS = {
+    "table": ("plane", "table", "pressure_gradient"),
+    "phreatic": ("phreatic",),
+    "field": ("field",),
+    "seepage": ("seepage",),
+}
 
 
 @dataclass(frozen=True)
@@ -46,6 +49,37 @@ class PhreaticLines(FieldWater):
 
     lines: tuple[tuple[float, tuple[tuple[float, float], ...]], ...]
     flow: str
+
+
+@dataclass(frozen=True)
+class FieldFiles(FieldWater):
+    """Pressures of files: `files`, one with all its times or one for each of the `times` [s], None for the file's own;
+    `name` of the pressures in them; `scale`: lengths and pressures of the files are taken times this, and their own
+    times `stretch`; `mirrored`: with left and right exchanged; `digests`: SHA-256 (hex) of the files.
+    """
+
+    files: tuple[str, ...]
+    times: tuple[float, ...] | None
+    name: str
+    scale: float
+    stretch: float
+    mirrored: bool
+    digests: tuple[str, ...]
+
+
+def complete(document) -> None:
+    """Fills in what other keys follow from when a section is mirrored or made larger, and where files are: paths of a
+    section file are those from its own folder.
+    """
+    raw = document.data.get("water", {}).get("field")
+    if raw is None:
+        return
+    folder = Path(document.path).parent if document.is_file else Path()
+    for one in (raw, *raw.get("states", ())):
+        if "file" in one:
+            one["file"] = str((folder / Path(one["file"]).expanduser()).resolve())
+    for name, value in (("scale", 1.0), ("stretch", 1.0), ("mirrored", False)):
+        raw.setdefault(name, value)
 
 
 def kind_of(document) -> str:
@@ -79,7 +113,41 @@ def read(document) -> FieldWater:
         raw["release_distance"] if isinstance(raw["release_distance"], str) else float(raw["release_distance"]),
         raw.get("outside", "refuse"),
     )
-    return _phreatic(raw["phreatic"], common, document)
+    if "seepage" in raw:
+        return seepage.read(raw["seepage"], common, document)
+    return _phreatic(raw["phreatic"], common, document) if "phreatic" in raw else _files(raw["field"], common, document)
+
+
+def plain(water) -> dict:
+    """The keys and values of a section file that give this FieldWater."""
+    common = {
+        "unit_weight": water.unit_weight,
+        "volume": water.volume,
+        "outside": water.outside,
+        "release_distance": water.release_distance,
+    }
+    if isinstance(water, PhreaticLines):
+        lines = [{"time": time, "points": [list(p) for p in points]} for time, points in water.lines]
+        return {"phreatic": {"lines": lines, "flow": water.flow}} | common
+    if isinstance(water, seepage.SeepageStates):
+        return {"seepage": seepage.plain(water)} | common
+    files = [{"file": file, "sha256": digest} for file, digest in zip(water.files, water.digests)]
+    if water.times is None:
+        field = files[0]
+    else:
+        field = {"states": [{"time": time, **one} for time, one in zip(water.times, files)]}
+    numbers = {"name": water.name, "scale": water.scale, "stretch": water.stretch, "mirrored": water.mirrored}
+    return {"field": field | numbers} | common
+
+
+def mirror(raw) -> None:
+    """Mirrors the plain data of a section's water that is no table."""
+    for line in raw.get("phreatic", {}).get("lines", ()):
+        line["points"] = [[0.0 - x, y] for x, y in reversed(line["points"])]
+    if "field" in raw:
+        raw["field"]["mirrored"] = not raw["field"].get("mirrored", False)
+    if "seepage" in raw:
+        seepage.mirror(raw["seepage"])
 
 
 def check(section, document) -> None:
@@ -90,22 +158,9 @@ def check(section, document) -> None:
         _check_lines(section, document)
 
 
-def _rising(document, keys, entries) -> None:
-    """Raise SectionError for the first of `entries`, a list below the key path `keys`, whose time does not follow the
-    one before.
-    """
-    for k, (before, after) in enumerate(zip(entries, entries[1:]), 1):
-        if after["time"] <= before["time"]:
-            document.refuse(
-                (*keys, k, "time"),
-                f"the time {after['time']:g} s does not follow {before['time']:g} s",
-                "give the times in rising order",
-            )
-
-
 def _phreatic(raw, common, document):
     keys = ("water", "phreatic", "lines")
-    _rising(document, keys, raw["lines"])
+    rising(document, keys, raw["lines"])
     for k, line in enumerate(raw["lines"]):
         for i, (a, b) in enumerate(zip(line["points"], line["points"][1:]), 1):
             if b[0] <= a[0]:
@@ -116,6 +171,46 @@ def _phreatic(raw, common, document):
                 )
     lines = tuple((float(one["time"]), points_of(one["points"])) for one in raw["lines"])
     return PhreaticLines(*common, lines, raw.get("flow", "sideways"))
+
+
+def _files(raw, common, document):
+    keys = ("water", "field")
+    if ("file" in raw) == ("states" in raw):
+        document.refuse(
+            keys,
+            f"has {'both' if 'file' in raw else 'neither'} `file` {'and' if 'file' in raw else 'nor'} `states`",
+            "give one file with all its times, or states: [{time: s, file: PATH}, ...]",
+        )
+    entries = raw.get("states", [raw])
+    if "states" in raw:
+        rising(document, (*keys, "states"), entries)
+    digests = []
+    for k, one in enumerate(entries):
+        where = (*keys, "states", k, "file") if "states" in raw else (*keys, "file")
+        try:
+            digests.append(hashlib.sha256(Path(one["file"]).read_bytes()).hexdigest())
+        except OSError as error:
+            document.refuse(
+                where,
+                f"{one['file']} cannot be read ({error.strerror or error})",
+                "give an HDF5 file, or one that meshio reads; paths of a section file begin at its folder",
+            )
+        if one.get("sha256", digests[-1]) != digests[-1]:
+            document.refuse(
+                (*where[:-1], "sha256"),
+                f"{one['file']} has the checksum {digests[-1]}",
+                "give the file that was meant, or leave `sha256` out",
+            )
+    return FieldFiles(
+        *common,
+        tuple(one["file"] for one in entries),
+        tuple(float(one["time"]) for one in entries) if "states" in raw else None,
+        raw.get("name", "pressure"),
+        float(raw["scale"]),
+        float(raw["stretch"]),
+        raw["mirrored"],
+        tuple(digests),
+    )
 
 
 def _check_lines(section, document):

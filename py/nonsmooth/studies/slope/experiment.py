@@ -30,7 +30,7 @@ from ...model.section import Section, data as section_data
 from ...packing.files import Packing
 from ...records import checkpoints
 from ...system import checks, keys
-from ...water import of_section
+from ...water import WaterError, field_files, of_section
 from ...world import pore_pressure, tables, worlds
 from ...world.stepping import advance
 from . import attached, frames, results, slope, slope_packing
@@ -78,7 +78,8 @@ class Experiment(driver.Course):
             self.folder / "series.csv", self.monitor.columns, resume_from=mark and mark["series"], overwrite=True
         )
         if state is None:  # after the series, by which a run's folder is known
-            section_data.write(self.section, self.folder / section_data.FILE)
+            kept = of_section.kept(self.section, self.field, self.folder)
+            section_data.write(kept, self.folder / section_data.FILE)
         self.walls = self.monitor.open_walls(self.folder / "walls.csv", mark and mark["walls"])
         if state is None:
             self.frames = frames.Frames(self.folder, self.section)
@@ -382,7 +383,11 @@ def run_key(section):
     return keys.key_of(
         {
             "key": section.key("settled"),
-            "water": asdict(section.water) if section.water else None,
+            "water": section.water_field.key
+            if section.water_field
+            else asdict(section.water)
+            if section.water
+            else None,
             "stages": asdict(section.stages),
             "seed": section.seed,
             "roles": [[item.name, item.role] for item in (*section.walls, *section.layers, *section.interfaces)],
@@ -410,4 +415,8 @@ def resume(section, folder, progress=None):
         records.kept(Path(folder) / f"{name}.csv", one)  # all of them, before any is written to
     O.engines = attached.others()  # without that of the run that saved it
     built = slope.find(section, content["walls"], content["first_disk"], content["count"])
-    return Experiment(built, folder, state=state, progress=progress, mark=mark)
+    try:
+        field = None if section.water_field is None else field_files.read(Path(folder) / of_section.FILE)
+    except WaterError as error:
+        raise ExperimentError(f"{error}; the run wrote this file when it began: run again without --resume") from None
+    return Experiment(built, folder, state=state, progress=progress, mark=mark, field=field)

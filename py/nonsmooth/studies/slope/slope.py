@@ -122,27 +122,14 @@ def build(section, packing, world=None) -> Slope:
     ]
     ids = O.bodies.append(disks)
     before = []
-    if section.water_field is not None:
+    if section.water is not None:
         before.append(
             PorePressureEngine(
                 label="porePressure",
                 unitWeight=section.water.unit_weight,
-                planeNormal=Vector3(*section.normal, 0),  # upright to the way downslope; dry until it has a field
                 releaseDistance=section.release_distance,
-                volumeFactor=_volume_factor(section),
-            )
-        )
-    elif section.water is not None:
-        w = section.water
-        before.append(
-            PorePressureEngine(
-                label="porePressure",
-                unitWeight=w.unit_weight,
-                planePoint=Vector3(*w.point, 0),
-                planeNormal=Vector3(*w.normal, 0),
-                pressureGradient=Vector3(*w.pressure_gradient_xy, 0),
-                releaseDistance=section.release_distance,
-                volumeFactor=_volume_factor(section),
+                volumeFactor=1.0 if section.water.volume == "disk" else 1 / section.disks.packing_fraction,
+                **_table(section),
             )
         )
     if section.shaking is not None:
@@ -169,9 +156,18 @@ def build(section, packing, world=None) -> Slope:
     return built
 
 
-def _volume_factor(section):
-    """Volume on which the water's pressure gradient acts, in units of a disk's own."""
-    return 1.0 if section.water.volume == "disk" else 1 / section.disks.packing_fraction
+def _table(section):
+    """Attributes of the PorePressureEngine: those of a water table; of a field, which comes at t0, the normal to the way
+    downslope alone.
+    """
+    w = section.water_table
+    if w is None:
+        return {"planeNormal": Vector3(*section.normal, 0)}
+    return {
+        "planePoint": Vector3(*w.point, 0),
+        "planeNormal": Vector3(*w.normal, 0),
+        "pressureGradient": Vector3(*w.pressure_gradient_xy, 0),
+    }
 
 
 def interface_law(slope: Slope, interface):

@@ -7,7 +7,9 @@ from yade import O
 from yade.nonsmooth import experiment, records, section, tables, worlds
 from yade.nonsmooth.model.section.reader import SCHEMA, read
 from yade.nonsmooth.studies.slope import slope
-from yade.nonsmooth.water import forces
+from yade.nonsmooth.water import field_files, forces
+from yade.nonsmooth.water.fields import MeshField
+from yade.nonsmooth.water.mesh import grid
 
 pytestmark = pytest.mark.usefixtures("empty")
 RISE = {
@@ -132,7 +134,6 @@ def test_soft_contacts_have_the_same_water(tmp_path):
     chosen = made(LAKE, settle={"ramp": 0.3, "time_max": 0.4, "speed_rest": 0.01}, dry=0.02)
     course = experiment.begin(chosen, tmp_path, world=world)
     course.run(end=0.5)
-    assert course.state.failed_dry is None
     t, water = tables.bodies(course.slope.solver), course.slope.water
     weight = 9810 * np.pi * (t["r"][t["y"] < 8.0] ** 2).sum() / course.section.disks.packing_fraction
     assert course.state.stage == "water" and water.totalForce[1] == pytest.approx(weight, rel=1e-10)
@@ -147,3 +148,42 @@ def test_a_slope_that_fails_dry_gets_no_water(tmp_path):
     series = records.read_series(tmp_path / "series.csv")
     assert course.state.failed_dry is not None and course.state.t0 is not None
     assert not series["wet_disks"].any() and course.slope.water.field is None
+
+
+def test_a_run_does_not_need_the_file_of_its_field_again(tmp_path):
+    """It is resumed, and its section loaded, without it."""
+    mesh = grid(np.linspace(-50, 20, 8), np.linspace(-20, 35, 8))
+    path = field_files.write(
+        MeshField(mesh, [0.3], [9810 * (2 - 0.4 * mesh.nodes[:, 0] - mesh.nodes[:, 1])]), tmp_path / "f.h5"
+    )
+    chosen = made({"field": {"file": str(path)}})
+    course = experiment.begin(chosen, tmp_path / "run")
+    course.run(end=0.4)
+    course.checkpoint()
+    path.unlink()
+    O.reset()
+    course = experiment.resume(chosen, tmp_path / "run")
+    course.run(end=0.9)
+    assert course.slope.water.wetCount > 0
+    assert section.load(str(tmp_path / "run" / "section.yaml")).water_field.scale == 1
+    (tmp_path / "run" / "water.h5").unlink()
+    O.reset()
+    with pytest.raises(experiment.ExperimentError, match="water.h5: there is no such file.*without --resume"):
+        experiment.resume(chosen, tmp_path / "run")
+
+
+def test_seepage_under_a_reservoir_carries_the_displaced_weight(tmp_path):
+    """With a submerged face, and disks that stick out of it; a rapid drawdown then leaves their forces as they were but
+    for those in the open water.
+    """
+    states = [{"time": 0.0, "reservoir": 8.0}, {"time": 0.1, "reservoir": 8.0}, {"time": 0.3, "drained": False}]
+    water = {"volume": "bulk", "seepage": {"size": 1.5, "conductivity": 1e-5, "states": states}}
+    course = experiment.begin(made(water), tmp_path)
+    course.run(end=0.56)
+    t, engine = tables.bodies(course.slope.solver), course.slope.water
+    phi, below = course.section.disks.packing_fraction, t["y"] < 8.0
+    weight = 9810 * np.pi * (t["r"][below] ** 2).sum() / phi
+    assert 0 < below.sum() < len(below) and engine.wetCount == below.sum()
+    assert tuple(engine.totalForce)[:2] == pytest.approx((0.0, weight), rel=1e-10, abs=1e-10 * weight)
+    course.run(end=0.9)
+    assert engine.totalForce[0] > 0.1 * weight and 0.5 * weight < engine.totalForce[1] < weight
