@@ -1,5 +1,5 @@
-"""The pore pressures of a section that has a field of them (``section.water_field``), as one MeshField in the time since
-t0.
+"""The pore pressures of a section that has a field of them (``section.water_field``), as one MeshField in the time
+since t0.
 
 **Lines.** Below a phreatic line the pressure is linear in each column between two vertices, so two triangles a column
 hold it exactly. The columns reach over the whole section, also above the ground: where the line stands over it, there

@@ -23,13 +23,14 @@ from shapely.geometry import MultiLineString
 from shapely.ops import linemerge
 
 from ..model import free_surface, geometry
-from . import conditions, mesher, seepage
+from ..model.section.seepage import SeepageStates
+from . import conditions, mesher, phreatic, seepage
 from .equations import Equations
 from .error import WaterError
 from .fields import MeshField
 from .mesh import Mesh
 
-__all__ = ["course", "field", "undrained"]
+__all__ = ["course", "field", "flow", "undrained"]
 
 KINDS = {
     "head": conditions.Head,
@@ -83,6 +84,26 @@ def course(water, section):
         except WaterError as error:
             raise SectionSeepageError(f"{where}.states[{k}]: {error}") from None
     return mesh, np.array(heads)
+
+
+def flow(section, found):
+    """What tells the flow of a state of a Section's field ``found``, a MeshField: a function of the time [s] since t0
+    that gives heads (n,) [m], Darcy's flux (m, 2) [m/s] and wet shares (m,) on its mesh, 0 in open water, and the
+    largest conductivity [m/s]. None where the section has no seepage.
+    """
+    water = section.water_field
+    if not isinstance(water, SeepageStates):
+        return None
+    mesh = found.mesh
+    tensors = [seepage.tensor(along, across, dip) for _, along, across, dip in water.conductivity]
+    tensors = np.array([*tensors, np.zeros((2, 2))])[np.minimum(mesh.layer, len(tensors))]
+
+    def at(time):
+        head = found.at(time) / water.unit_weight + mesh.nodes[:, 1]
+        wet = phreatic.wet_share((head - mesh.nodes[:, 1])[mesh.triangles])[0] * (mesh.layer < len(section.layers))
+        return head, -wet[:, None] * np.einsum("mij,mj->mi", tensors, mesh.gradient(head)), wet, float(tensors.max())
+
+    return at
 
 
 def undrained(mesh, conductivity, asked, before) -> np.ndarray:

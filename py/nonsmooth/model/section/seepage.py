@@ -42,8 +42,8 @@ class SeepageState:
 
 @dataclass(frozen=True)
 class SeepageStates(FieldWater):
-    """Steady seepage in each of the `states`, on a mesh with edges of `size` [m]; `conductivity`: (name, along,
-    across, dip) [m/s, m/s, degrees] of each layer, from the bottom; `dry`: what dry ground conducts, by that of wet, or None.
+    """Steady seepage in each of the `states`, on a mesh with edges of `size` [m]; `conductivity`: (name, along, across,
+    dip) [m/s, m/s, degrees] of each layer, from the bottom; `dry`: what dry ground conducts, by that of wet, or None.
     """
 
     size: float

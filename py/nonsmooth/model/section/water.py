@@ -221,8 +221,8 @@ def _check_lines(section, document):
         if section.water.outside == "refuse" and not (low <= reach.min() and reach.max() <= high):
             document.refuse(
                 keys,
-                f"the line at t = {time:g} s goes from x = {line[0, 0]:g} to x = {line[-1, 0]:g} m, and the layers from "
-                f"{reach.min():g} to {reach.max():g} m",
+                f"the line at t = {time:g} s goes from x = {line[0, 0]:g} to x = {line[-1, 0]:g} m, and the layers "
+                f"from {reach.min():g} to {reach.max():g} m",
                 "give a line that spans the layers, or water.outside: dry",
             )
         above = _above_ground(section, line)

@@ -146,8 +146,8 @@ def standing(section, table=None) -> tuple[Section, str | None]:
     if section.water_field is not None:
         if table is not None:
             raise SafetyError(
-                f"--table {table:g}: {section.source} has no water table, but a field of water, whose last state stays; "
-                "leave --table out"
+                f"--table {table:g}: {section.source} has no water table, but a field of water, whose last state "
+                "stays; leave --table out"
             )
         return section, None
     if table is None:

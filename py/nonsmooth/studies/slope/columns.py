@@ -13,7 +13,8 @@ COLUMNS = declared(
     Column(
         "water_m",
         "m",
-        "height of the water table above its plane (DP), h_w; of a field of water the mean pressure head p/γ_w on the slip surfaces",
+        "height of the water table above its plane (DP), h_w; of a field of water the mean pressure head p/γ_w on the slip "
+        "surfaces",
     ),
     Column(
         "dp_normal_total_N_per_m",

@@ -109,8 +109,8 @@ class SlopeMonitor:
         return state.t0 is None or O.time < state.t0 + self.field.times[-1]
 
     def water_height(self, state):
-        """Of the water table above its plane [m], 0 where it is dry; of a field of pressures their mean head on the slip
-        surfaces.
+        """Of the water table above its plane [m], 0 where it is dry; of a field of pressures their mean head on the
+        slip surfaces.
         """
         if self._slip_heads is None:
             return self.slope.water.height if self.slope.water else 0.0

@@ -52,7 +52,7 @@ HEAD = b"step,time_s,"  # begins the series of every run
 SUMMARY, BREAKS, BEGIN, END = "summary.json", "breaks.csv", "t0.npz", "end.npz"
 SNAPSHOTS, PARAVIEW = frames.FOLDER, "vtk"
 #: Names of the figures in the order in which they are drawn; of their files with ".png".
-PICTURES = tuple("force_chains forces snapshots weakening toe deposit shaking energy solver".split())
+PICTURES = tuple("force_chains forces snapshots weakening toe deposit shaking water energy solver".split())
 FIGURES = (*(f"{name}.png" for name in PICTURES), "avalanche.mp4")
 
 

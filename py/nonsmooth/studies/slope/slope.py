@@ -157,8 +157,8 @@ def build(section, packing, world=None) -> Slope:
 
 
 def _table(section):
-    """Attributes of the PorePressureEngine: those of a water table; of a field, which comes at t0, the normal to the way
-    downslope alone.
+    """Attributes of the PorePressureEngine: those of a water table; of a field, which comes at t0, the normal to the
+    way downslope alone.
     """
     w = section.water_table
     if w is None:
