@@ -211,6 +211,7 @@ SEAT = [{"name": "seat", "material": "ss", "vertices": [[70.0, 40.0], [80.0, 38.
 BASE = data()
 DATA = Path(__file__).resolve().parents[2] / "data"
 RECORD, UNEVEN = str(DATA / "four_values.at2"), str(DATA / "uneven.csv")  # 0, 2, -1, 0 at 0.1 s, without a unit
+SHA256 = "db172bc1f0296fdba58cd446629229348cd070a1d7046ea0b52a649ad5dcf31c"  # of these, in m/s²
 SHAKEN = {"file": RECORD, "unit": "m/s2"}
 MADE_UP = {"peak": 2.0, "duration": 2.0, "frequency": 2.0}
 
@@ -808,6 +809,7 @@ WHERE = {
         lambda m: m.section.shaking.motion.name,
         "a record",
     ),
+    ("shaking", "sha256"): ({("shaking",): SHAKEN | {"sha256": SHA256}}, lambda m: m.section.shaking.record, SHA256),
     ("shaking", "begin"): (
         {("shaking",): SHAKEN | {"begin": 0.2}},
         lambda m: (m.built.shaking.begin - m.run.state.t0, m.built.shaking.dead),
@@ -962,6 +964,7 @@ IDLE = {
     ("materials", "*", "envelope", "cohesion"),
     ("materials", "*", "envelope", "friction_deg"),
     ("shaking", "name"),
+    ("shaking", "sha256"),
 }
 
 

@@ -151,6 +151,19 @@ def test_what_a_run_keeps_needs_no_other_file(tmp_path):
     assert section.load(str(moved / section_data.FILE)).shaking == made.shaking
 
 
+def test_what_is_kept_by_plain_data_knows_the_content_of_the_file(tmp_path):
+    """A sweep takes a run for another one where the file's values have changed meanwhile."""
+    path = tmp_path / "record.csv"
+    path.write_text("time_s,horizontal_g\n0,0\n0.1,0.5\n")
+    before = section_data.plain(slope({"file": str(path), "factor": 2.0}))
+    assert section.of(before).shaking.motion.peak_acceleration() == pytest.approx(9.80665)
+    path.write_text("time_s,horizontal_g\n0,0\n0.1,0.4\n")
+    after = section_data.plain(slope({"file": str(path), "factor": 2.0}))
+    assert before["shaking"]["sha256"] != after["shaking"]["sha256"]
+    with pytest.raises(section.SectionError, match="shaking.sha256: .* is not that of the values of .*record.csv"):
+        section.of(before)
+
+
 def test_a_synthetic_motion_is_kept_by_its_numbers(tmp_path):
     made = slope({"synthetic": {"peak": 2.0, "duration": 3.0, "frequency": 2.0}})
     section_data.write(made, tmp_path / section_data.FILE)

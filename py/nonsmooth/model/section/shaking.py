@@ -14,20 +14,22 @@ from ..ground_motion import GroundMotion, GroundMotionError, synthetic
 __all__ = ["FILE", "Shaking", "check_end", "complete", "kept", "made", "mirrored", "plain"]
 
 FILE = "shaking.csv"  # of a run: the record as it shakes the slope
-RECORD = ("file", "vertical_file", "unit", "name", "uneven")  # keys of a record that is read
+RECORD = ("file", "vertical_file", "unit", "name", "uneven", "sha256")  # keys of a record that is read
 
 
 @dataclass(frozen=True)
 class Shaking:
     """How the ground shakes: its ``motion``, a GroundMotion whose time 0 is ``begin`` [s] after t0.
 
-    ``said``: the keys and values of a section file that make it; ``digest``: SHA-256 (hex) of its values.
+    ``said``: the keys and values of a section file that make it; ``digest``: SHA-256 (hex) of its values, and
+    ``record`` that of the record as it was read, None of a synthetic motion.
     """
 
     motion: GroundMotion = field(compare=False, repr=False)
     begin: float
     digest: str
     said: Mapping = field(compare=False, repr=False)
+    record: str | None = field(compare=False, default=None, repr=False)
 
     @property
     def end(self) -> float:
@@ -69,26 +71,38 @@ def made(document) -> Shaking | None:
     if "peak" in raw and "factor" in raw:
         document.refuse(("shaking", "factor"), "stands beside `peak`", "give one of the two")
     try:
-        motion = _motion(raw)
+        record = _record(raw)
+        read = _digest(record) if "file" in raw else None
+        if raw.get("sha256", read) != read:
+            document.refuse(
+                ("shaking", "sha256"),
+                f"{raw['sha256']} is not that of the values of {raw['file']}, {read}",
+                "give the record that was meant, or leave `sha256` out",
+            )
+        motion = _changed(record, raw)
     except GroundMotionError as error:
         document.refuse(("shaking", keys[0]), str(error), "see the page 'Earthquakes'")
-    return Shaking(motion, float(raw.get("begin", 0.0)), _digest(motion), dict(raw))
+    return Shaking(motion, float(raw.get("begin", 0.0)), _digest(motion), dict(raw), read)
 
 
-def _motion(raw):
+def _record(raw):
+    """The motion as it was read or made up."""
     if "file" in raw:
-        motion = ground_motion.read(
+        return ground_motion.read(
             raw["file"],
             vertical=raw.get("vertical_file"),
             unit=raw.get("unit"),
             name=raw.get("name"),
             uneven=raw.get("uneven", False),
         )
-    else:
-        said = dict(raw["synthetic"])
-        motion = synthetic.stochastic(
-            said.pop("peak"), said.pop("duration"), said.pop("frequency"), said.pop("seed", 1), **said
-        )
+    said = dict(raw["synthetic"])
+    return synthetic.stochastic(
+        said.pop("peak"), said.pop("duration"), said.pop("frequency"), said.pop("seed", 1), **said
+    )
+
+
+def _changed(motion, raw):
+    """What the section makes of it."""
     if "baseline" in raw:
         motion = motion.corrected(raw["baseline"])
     if "peak" in raw:
@@ -108,8 +122,11 @@ def _digest(motion):
 
 
 def plain(shaking) -> dict:
-    """The keys and values of a section file that gives this Shaking."""
-    return {**shaking.said, "begin": shaking.begin}
+    """The keys and values of a section file that gives this Shaking. Of a record that was read they have its SHA-256,
+    so that what is kept by these values is not taken for what another content of the file would give.
+    """
+    known = {"sha256": shaking.record} if shaking.record else {}
+    return {**shaking.said, "begin": shaking.begin, **known}
 
 
 def kept(shaking, folder) -> dict:
@@ -123,6 +140,7 @@ def kept(shaking, folder) -> dict:
         "file": FILE,
         "name": shaking.motion.name,
         "uneven": True,
+        "sha256": shaking.digest,
         "stretch": 1.0,
         "reversed": False,
         "begin": shaking.begin,

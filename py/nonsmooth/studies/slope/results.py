@@ -138,6 +138,11 @@ NUMBERS = (
     "deposit_thickness_ground_m mixing overturned_m bulking_factor "
     "energy_dissipated_J_per_m energy_correction_rel energy_error_rel"
 ).split()
+#: Numbers of the motion in the summary of a section that shakes.
+SHAKING = (
+    "begin_s duration_s peak_acceleration_m_per_s2 peak_velocity_m_per_s arias_intensity_m_per_s drift_velocity_m_per_s "
+    "drift_displacement_m"
+).split()
 PASSIVE = (
     "water_passive_m water_at_failure_over_passive passive_resistance_dry_N_per_m passive_force_N_per_m "
     "fb_force_at_failure_over_passive"
@@ -166,6 +171,9 @@ def numbers_of(section) -> list[str]:
         for bands in TOE_BANDS:
             found += [f"{bands}.{one}.{name}" for one in ("towards_foot", "conjugate") for name in BAND]
             found += [f"{bands}.both_conjugate"] + [f"{bands}.rankine_deg"] * bool(section.envelope)
+    if section.shaking is not None:
+        found += [f"shaking.{name}" for name in SHAKING]
+        found += [f"displacements_m.{name}" for name, _ in section.slip_surfaces]
     found += BED if any(layer.role == "bed" for layer in section.layers) else ()
     return found + list(PASSIVE if _has_passive(section) else ())
 
@@ -320,16 +328,22 @@ def _of_shaking(section, series):
         return {}
     motion = section.shaking.motion
     return {
-        "shaking": {
-            "record": f"{motion.name} ({motion.source})",
-            "begin_s": section.shaking.begin,
-            "duration_s": motion.duration,
-            "peak_acceleration_m_per_s2": motion.peak_acceleration(),
-            "peak_velocity_m_per_s": motion.peak_velocity(),
-            "arias_intensity_m_per_s": motion.arias_intensity(),
-            "drift_velocity_m_per_s": motion.drift.velocity[0],
-            "drift_displacement_m": motion.drift.displacement[0],
-        },
+        "shaking": {"record": f"{motion.name} ({motion.source})"}
+        | dict(
+            zip(
+                SHAKING,
+                (
+                    section.shaking.begin,
+                    motion.duration,
+                    motion.peak_acceleration(),
+                    motion.peak_velocity(),
+                    motion.arias_intensity(),
+                    motion.drift.velocity[0],
+                    motion.drift.displacement[0],
+                ),
+                strict=True,
+            )
+        ),
         "displacements_m": {
             name: float(series[records.column(PERMANENT.name, name)][-1]) for name, _ in section.slip_surfaces
         },

@@ -6,7 +6,9 @@ import json
 
 import numpy as np
 import pytest
+import shell
 import sliding_block
+import yaml
 from yade import O
 from yade.nonsmooth import experiment, ground_motion, newmark, records, runs, section, similar, worlds
 from yade.nonsmooth.measure import surface_slip
@@ -93,6 +95,9 @@ def test_the_summary_tells_of_the_record(shaken):
     told = summary["shaking"]
     assert told["peak_acceleration_m_per_s2"] == pytest.approx(7.0) and told["duration_s"] == pytest.approx(4.0)
     assert told["begin_s"] == 0.5 and "seed 3" in told["record"]
+    numbers = results.numbers_of(made)
+    assert all(f"shaking.{name}" in numbers for name in told if name != "record")
+    assert "displacements_m.plane" in numbers
     assert told["drift_displacement_m"] == made.shaking.motion.drift.displacement[0]
 
 
@@ -179,3 +184,36 @@ def test_slip_surfaces_are_found_again_after_a_resume(shaken, tmp_path):
     begin = records.read_snapshot(folder / results.BEGIN)
     (found,) = surface_slip.surfaces(made, begin)
     assert found.above.tolist() == [4, 13]  # the others of the lowest row hang on these
+
+
+def test_the_script_that_compares_peaks(tmp_path):
+    """Of a small slope that stands at 1 m/s² and is carried off at 30, beside itself under rising water."""
+    motion = {"peak": 1.0, "duration": 3.0, "frequency": 1.0}
+    wet = shell.ROOT / "tests" / "data" / "small_slope.yaml"
+    shaken = {"base": str(wet), "water": None, "shaking": {"synthetic": motion}}
+    (tmp_path / "shaken.yaml").write_text(yaml.safe_dump(shaken))
+    lines = (
+        "section wet disks peaks seeds folder",
+        f"'{tmp_path}/shaken.yaml' '{wet}' 150 [1.0,30.0] 2 '{tmp_path}/out'",
+    )
+    (tmp_path / "peaks.table").write_text("\n".join(lines) + "\n")
+    done = shell.run(
+        "yade-nonsmooth",
+        shell.SCRIPTS / "examples" / "shaken_slopes.py",
+        limit=300,
+        cwd=tmp_path,
+        YADE_BATCH=f"{tmp_path}/peaks.table:2",
+    )
+    assert done.returncode == 0, done.stderr
+    told = json.loads((tmp_path / "out" / "shaken.json").read_text())
+    assert (told["shaken_1"]["stood"], told["shaken_1"]["failed"]) == (2, 0)
+    assert (told["shaken_30"]["stood"], told["shaken_30"]["failed"]) == (0, 2)
+    for seed in (1, 2):
+        end = json.loads((tmp_path / "out" / "runs" / f"peak=30.0_seed={seed}" / "summary.json").read_text())
+        numbers = told["shaken_30"]["when_failed"]
+        assert numbers["slip_m"]["values"][seed - 1] == end["displacements_m"]["DP"]
+        moved = end["times_s"]["t2"] - end["times_s"]["t0"] - end["shaking"]["begin_s"]
+        assert numbers["moves_s"]["values"][seed - 1] == moved > 0
+        assert f"after it began, front {numbers['front_travel_m']['mean']:.0f}" in done.stdout
+    for name in ("shaken", "shaken_runouts"):
+        assert (tmp_path / "out" / f"{name}.png").stat().st_size > 1000
