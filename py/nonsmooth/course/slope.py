@@ -18,6 +18,8 @@ Rules:
 * still: the slope does not move, its water table has stood at one height for 5 s and no other trigger acts: the tolerance is a quarter of
   ``tolerance``, since nothing but the solver's error is left to move a disk, and over a minute a looser solve breaks a
   bond or two that bear all they can;
+* a field of water (lines, files, seepage) has its states at their times since t0, whether the slope moves or not; as
+  long as one is to come, the slope is not still, and does not stand;
 * rows and snapshots are of the first steps that end at, or less than half a step before, whole multiples of their
   distance in time, from the beginning on;
 * speeds and times in this list are those of the shipped section, and scaled for another (:mod:`.scales`);
@@ -47,6 +49,7 @@ __all__ = [
     "care",
     "collapsed",
     "damping",
+    "field_begin",
     "flowing",
     "foreseen",
     "gravity_share",
@@ -119,7 +122,7 @@ class State:
 @dataclass(frozen=True)
 class Seen:
     """What a row sees of the slope: ``time`` [s] and length of the last ``step`` [s], mean ``speed`` [m/s], height of
-    the ``water`` table [m], None where the section has none.
+    the ``water`` table [m], None where the section has none, and whether states of a field of water are ``coming``.
 
     ``way``: of the mass's centre since it was packed, sideways, in its size; ``broken``: part of the bonds that is
     broken; ``wet``: number of wet disks; ``top``: height of the highest disk's centre above the water's plane [m];
@@ -131,6 +134,7 @@ class Seen:
     step: float
     speed: float
     water: float | None = None
+    coming: bool = False
     way: float = 0.0
     broken: float = 0.0
     wet: int = 0
@@ -209,14 +213,15 @@ def _water(state, seen, section, scales):
     since = (seen.time if s.resting_since is None else s.resting_since) if resting else None
     height = seen.water if rises else 0.0
     s = _quieted(s, seen, section)
-    rested = resting and passed(seen, stages.end.rest_hold, since) and triggers.over(section, loads_since(s), seen.time)
+    rested = resting and passed(seen, stages.end.rest_hold, since) and not seen.coming
+    rested = rested and triggers.over(section, loads_since(s), seen.time)
     over = rested or passed(seen, s.settled + stages.end.time)
     return replace(
         s,
         stage="done" if over or (not seen.more and stands(s, seen, section, scales)) else "water",
         resting_since=since,
         table=height,
-        table_since=s.table_since if height == s.table else seen.time,
+        table_since=s.table_since if height == s.table and not seen.coming else seen.time,
     )
 
 
@@ -231,10 +236,10 @@ def _quieted(s, seen, section):
 
 
 def _load_stays(s, seen, section):
-    """Whether no trigger changes the load any more, and no disk gets wet or dry by the table: it stays where it is, or
-    above all of them.
+    """Whether no trigger changes the load any more, and no disk gets wet or dry by the water: no state of a field is to
+    come, and a table stays where it is, or above all disks.
     """
-    if not triggers.over(section, loads_since(s), seen.time):
+    if seen.coming or not triggers.over(section, loads_since(s), seen.time):
         return False
     table = water_table(s, section)
     if table is None:
@@ -263,8 +268,8 @@ def passed(seen, time, since=0.0):
 
 # ---- what follows from it ---------------------------------------------------------------------------
 def water_table(state, section):
-    """Times [s] and heights [m] of the water table, two lists; None before t0."""
-    if state.t0 is None or section.water is None:
+    """Times [s] and heights [m] of the water table, two lists; None before t0, and where the water is none."""
+    if state.t0 is None or section.water_table is None:
         return None
     if state.water_hold is not None:
         return [state.t0], [state.water_hold]
@@ -275,6 +280,13 @@ def water_table(state, section):
         times.append(times[-1] + span)
         heights.append(heights[-1] + water.rate * span)
     return [state.t0 + state.water_delay + t for t in times], heights
+
+
+def field_begin(state, section):
+    """The time [s] at which that of the section's field of water is 0; None before t0, where the slope did not wait for
+    the water, and where the section has no such field.
+    """
+    return None if section.water_field is None or state.water_hold is not None else state.t0
 
 
 def flowing(speed, largest):

@@ -10,6 +10,7 @@ from . import (
     plane,
     results,
     safety,
+    section_water,
     shaking,
     solver,
     state,
@@ -27,6 +28,7 @@ MUTANTS = (
     + impacts.MUTANTS
     + walls.MUTANTS
     + course.MUTANTS
+    + section_water.MUTANTS
     + results.MUTANTS
     + shaking.MUTANTS
     + safety.MUTANTS

@@ -128,7 +128,7 @@ def _release_notes(section):
 
 def _water_notes(section):
     """A sign that was not meant shows as water that runs up the slope."""
-    water = section.water
+    water = section.water_table
     if water is None:
         return
     if water.wall is None and abs(water.dip) >= 1 and abs(section.dip) >= 1 and water.dip * section.dip < 0:

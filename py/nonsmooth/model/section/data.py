@@ -9,7 +9,7 @@ import dataclasses
 import yaml
 
 from ...system.whole_files import write_atomically
-from . import shaking as section_shaking
+from . import shaking as section_shaking, water as section_water
 
 __all__ = ["FILE", "material", "plain", "write"]
 
@@ -68,7 +68,7 @@ def plain(section) -> dict:
         "stages": {
             "settle": dataclasses.asdict(stages.settle),
             "dry": stages.dry,
-            "water": {"hold": stages.water_hold},
+            **({} if section.water_field else {"water": {"hold": stages.water_hold}}),
             "end": dataclasses.asdict(stages.end),
         },
         "numerics": {k: v for k, v in dataclasses.asdict(section.numerics).items() if v is not None},
@@ -77,7 +77,9 @@ def plain(section) -> dict:
         data["unusual"] = list(section.unusual)
     if not section.interfaces:
         del data["interfaces"]
-    if water is not None:
+    if section.water_field is not None:
+        data["water"] = section_water.plain(water)
+    elif water is not None:
         # the rate goes on from the last point, and a file has one of the two
         table = {"rate": water.rate} if water.table == ((0.0, 0.0),) else {"points": [list(p) for p in water.table]}
         data["water"] = {

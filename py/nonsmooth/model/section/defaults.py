@@ -49,9 +49,9 @@ def filled(data: dict) -> dict:
     if "water" in data:
         made["water"] = {
             "unit_weight": WATER_DENSITY * gravity,
-            "pressure_gradient": "parallel_seepage",
             "volume": "disk",
             "release_distance": "critical_slip",
+            **({"pressure_gradient": "parallel_seepage"} if "table" in data["water"] else {}),
             **data["water"],
         }
     return made

@@ -15,6 +15,7 @@ import numpy as np
 from ...system import checks
 from .. import free_surface, geometry, roles, stacks
 from . import data as section_data, values as section_values
+from .field_water import FieldWater
 from .parts import Disks, Envelope, Interface, Layer, Material, Numerics, Stages, Wall, Water, normal_of
 from .reader import SectionError
 from .shaking import Shaking
@@ -42,7 +43,7 @@ class Section:
     layers: tuple[Layer, ...]
     materials: Mapping[str, Material]
     disks: Disks
-    water: Water | None
+    water: Water | FieldWater | None
     stages: Stages
     numerics: Numerics
     seed: int
@@ -183,6 +184,18 @@ class Section:
         """Critical slip D_c [m] of each slip surface that weakens, by its name."""
         weak = {one.name: self.materials[one.material].slip_weakening for one in self.sliding}
         return {name: law.critical_slip for name, law in weak.items() if law}
+
+    @property
+    def water_table(self) -> Water | None:
+        """The water where it is a table above a plane; None where it has a field of pressures, or is not there."""
+        return self.water if isinstance(self.water, Water) else None
+
+    @property
+    def water_field(self) -> FieldWater | None:
+        """The water where it has a field of pressures (:mod:`.section.water`); None where it is a table, or is not
+        there.
+        """
+        return self.water if isinstance(self.water, FieldWater) else None
 
     @property
     def release_distance(self) -> float | None:

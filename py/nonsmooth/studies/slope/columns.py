@@ -10,7 +10,12 @@ COLUMNS = declared(
     STEP,
     TIME,
     count("stage", "stage of the run in the step: 0 settling, 1 dry rest, 2 water or avalanche"),
-    Column("water_m", "m", "height of the water table above its plane (DP), h_w"),
+    Column(
+        "water_m",
+        "m",
+        "height of the water table above its plane (DP), h_w; of a field of water the mean pressure head p/γ_w on the slip "
+        "surfaces",
+    ),
     Column(
         "dp_normal_total_N_per_m",
         "N/m",

@@ -12,6 +12,7 @@ from ... import course, packing, records
 from ...course import triggers
 from ...measure import surface_slip
 from ...measure.fronts import front_of
+from ...measure.pressure_heads import SlipHeads
 from ...model import scales
 from ...records.columns import without
 from ...world import tables
@@ -42,13 +43,16 @@ class SlopeMonitor:
     """Of a built :class:`~nonsmooth.studies.slope.slope.Slope` and its disks' ``layers`` (count,), unless given as the
     scene has them.
 
+    ``field``: the section's pore pressures in the time since t0, a MeshField, or None;
     ``walls``: its WallSeries, once :meth:`open_walls` has been called; ``columns``: those of the rows, {name: Column};
     ``hard``: whether its disks are rigid; ``mass``: which disks are of the mass, bool (count,), None: all. ``disks``
     and ``t`` are the table of :func:`.tables.bodies`.
     """
 
-    def __init__(self, built, layers=None):
+    def __init__(self, built, layers=None, field=None):
         self.slope, self.section, self.walls = built, built.section, None
+        self.field = field
+        self._slip_heads = None if field is None else SlipHeads(field, built.section)
         self.layers = slope.layers_of(built) if layers is None else layers
         self.hard = slope.is_hard(built)
         # disks of the mass, where others are bed or obstacles
@@ -88,7 +92,8 @@ class SlopeMonitor:
             O.time,
             O.dt,
             self.mean_speed(disks),
-            water.height if water else None,
+            None if self.section.water_table is None else water.height,
+            self._coming(state),
             way=0.0 if state.centre is None else abs(self.centroid(disks)[0] - state.centre) / self.section.mass_size,
             broken=(e.brokenTension + e.brokenShear + e.brokenTorque + e.brokenMixed) / made if made else 0.0,
             wet=water.wetCount if water else 0,
@@ -97,11 +102,26 @@ class SlopeMonitor:
             more=more,
         )
 
+    def _coming(self, state):
+        """Whether states of a field of water are to come."""
+        if self.field is None or (state.t0 is not None and course.field_begin(state, self.section) is None):
+            return False
+        return state.t0 is None or O.time < state.t0 + self.field.times[-1]
+
+    def water_height(self, state):
+        """Of the water table above its plane [m], 0 where it is dry; of a field of pressures their mean head on the
+        slip surfaces.
+        """
+        if self._slip_heads is None:
+            return self.slope.water.height if self.slope.water else 0.0
+        begin = course.field_begin(state, self.section)
+        return 0.0 if begin is None else self._slip_heads.mean(O.time - begin)
+
     def _top(self, t):
         """Height of the highest disk's centre above the water's plane [m]; the table acts on those whose centres are
         below it.
         """
-        water = self.section.water
+        water = self.section.water_table
         if water is None:
             return -math.inf
         (x, y), (nx, ny) = water.point, water.normal
@@ -167,14 +187,15 @@ class SlopeMonitor:
         forces, of_surfaces = self.walls.take()
         dp, fb, ss = forces["slip"], forces["backstop"], forces["ground"]
         total = water.totalForce if water else (0.0, 0.0, 0.0)
-        lift = total[0] * section.water.normal[0] + total[1] * section.water.normal[1] if water else 0.0
-        u = lift * self._share(disks, self._borne) if water else 0.0
+        normal = (section.water_table or section).normal
+        lift = total[0] * normal[0] + total[1] * normal[1] if water else 0.0
+        u = lift * self._share(disks, self._borne, state) if water else 0.0
         slip, (x, y) = self.walls.slip(), self.centroid(disks)
         row = {
             "step": O.iter,
             "time_s": O.time,
             "stage": course.STAGES.index(state.stage),
-            "water_m": water.height if water else 0.0,
+            "water_m": self.water_height(state),
             "dp_normal_total_N_per_m": dp[0] + u,
             "dp_normal_effective_N_per_m": dp[0],
             "dp_water_N_per_m": u,
@@ -203,7 +224,7 @@ class SlopeMonitor:
             "energy_potential_J": e.potentialEnergy,
         }
         for name, force in of_surfaces.items():
-            share = lift * self._share(disks, self._borne_by[name]) if water else 0.0
+            share = lift * self._share(disks, self._borne_by[name], state) if water else 0.0
             row |= self._of_surface(name, force, share)
         if section.shaking is not None:
             row |= self._of_shaking(disks)
@@ -227,14 +248,19 @@ class SlopeMonitor:
             slipped = surface_slip.displacements(self._surfaces, self._begin, t["x"], t["y"])
         return values | {records.column(PERMANENT.name, name): value for name, value in slipped.items()}
 
-    def _share(self, t, part):
+    def _share(self, t, part, state):
         """The part of the water's force that acts on what slip surfaces bear: these disks, or this part of each (None:
-        all). Forces go with areas.
+        all). Forces go with areas, and in a field with the pressure's gradient along the slope's normal.
         """
         if part is None:
             return 1.0
         wet = tables.water(self.slope.water, self.slope.first_disk, self.slope.count)[0] * t["r"] ** 2
-        return float((wet[part] if part.dtype == bool else wet * part).sum() / wet.sum()) if wet.any() else 0.0
+        begin = course.field_begin(state, self.section)
+        if begin is not None:
+            gradient = self.field.gradient(np.column_stack((t["x"], t["y"])), O.time - begin, outside="dry")
+            wet = wet * (gradient[:, 0] * self.section.normal[0] + gradient[:, 1] * self.section.normal[1])
+        whole = wet.sum()
+        return float((wet[part] if part.dtype == bool else wet * part).sum() / whole) if whole else 0.0
 
     def _of_solver(self, state, e):
         """The columns of OF_SOLVER."""
@@ -256,8 +282,8 @@ class SlopeMonitor:
             "energy_error_rel": e.energyError / turned if turned > 0 else 0.0,
         }
 
-    def snapshot(self, path, contacts=False):
-        """Writes the present state; with ``contacts`` also the forces."""
+    def snapshot(self, path, state, contacts=False):
+        """Writes the present ``state``; with ``contacts`` also the forces."""
         path.parent.mkdir(parents=True, exist_ok=True)
         built, water = self.slope, self.slope.water
         t = tables.bodies(built.solver)
@@ -269,5 +295,5 @@ class SlopeMonitor:
             wall_numbers = {i: k for k, ids in enumerate(built.walls.values()) for i in ids}
             arrays.update(tables.loaded_contacts(built.solver, first, wall_numbers))
         records.write_snapshot(
-            path, time_s=O.time, step=O.iter, layer=self.layers, water_m=water.height if water else 0.0, **arrays
+            path, time_s=O.time, step=O.iter, layer=self.layers, water_m=self.water_height(state), **arrays
         )
