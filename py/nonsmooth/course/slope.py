@@ -26,13 +26,16 @@ Rules:
 * end: the mean speed has been below ``rest_fraction`` of its maximum for ``rest_hold`` seconds, or the slope stands and
   nothing is left that could change it, or ``end.time`` has passed. It stands where for 5 s, and for ``rest_hold``
   seconds more, the mean speed has been no more than ``stages.settle.speed_rest``, no bond broke and no other disk got
-  wet, and the water table stays where it is or above all disks; a script that may do more to it says so.
+  wet, no window takes disks out any more (:mod:`.erosion`), and the water table stays where it is or above all disks; a
+  script that may do more to it says so.
 """
 
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, field, replace
+
+from . import erosion
 
 __all__ = [
     "COLLAPSED",
@@ -91,6 +94,10 @@ class State:
     table: float = 0.0  # height of the water table ...
     table_since: float = 0.0  # ... and the time since when it has been there
     water_delay: float = 0.0  # how long the table stood still while the slope moved and came to rest again
+    erosion_taken: dict = field(default_factory=dict)  # {window of the section: its time when it last took disks out}
+    erosion_delay: float = 0.0  # how long those that hold stood still, as water_delay
+    eroded_shift_x: float = 0.0  # m, by which the mass's centre has jumped as disks were taken out ...
+    eroded_shift_y: float = 0.0
     front0: float | None = None
     speed_max: float = 0.0
     speed_before: float = 0.0  # the largest before t0
@@ -161,7 +168,8 @@ def after(state, seen, section, scales):
     if state.rested is None and state.failed_dry is None and state.moving is None:
         if seen.time >= settle.ramp and seen.speed <= settle.speed_rest:
             state = replace(state, rested=seen.time)
-    return {"settle": _settle, "dry": _dry, "water": _water}[state.stage](state, seen, section, scales)
+    made = {"settle": _settle, "dry": _dry, "water": _water}[state.stage](state, seen, section, scales)
+    return erosion.noted(state, made, seen, section)
 
 
 def _settle(state, seen, section, scales):
@@ -226,7 +234,11 @@ def _quieted(s, seen, section):
 
 
 def _load_stays(s, seen, section):
-    """Whether no disk gets wet or dry by the table any more: it stays where it is, or above all of them."""
+    """Whether no disk is taken out any more, nor gets wet or dry by the table: it stays where it is, or above all of
+    them.
+    """
+    if erosion.may_take(s, seen.step, section):
+        return False
     table = water_table(s, section)
     if table is None:
         return True

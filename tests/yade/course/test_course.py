@@ -95,7 +95,7 @@ def test_the_module_needs_no_yade():
     imported |= {
         node.module
         for node in ast.walk(ast.parse(Path(rules.__file__).read_text()))
-        if isinstance(node, ast.ImportFrom)
+        if isinstance(node, ast.ImportFrom) and not node.level  # its neighbours are held by test_rooms
     }
     assert imported == {"__future__", "math", "dataclasses"}
 

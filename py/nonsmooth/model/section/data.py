@@ -9,6 +9,7 @@ import dataclasses
 import yaml
 
 from ...system.whole_files import write_atomically
+from . import erosion
 
 __all__ = ["FILE", "material", "plain", "write"]
 
@@ -72,6 +73,8 @@ def plain(section) -> dict:
         },
         "numerics": {k: v for k, v in dataclasses.asdict(section.numerics).items() if v is not None},
     }
+    if section.erosion:
+        data["erosion"] = [erosion.plain(window) for window in section.erosion]
     if section.unusual:
         data["unusual"] = list(section.unusual)
     if not section.interfaces:

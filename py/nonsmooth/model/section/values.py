@@ -39,6 +39,7 @@ _KEY = {
             "stages",
             "numerics",
             "unusual",
+            "erosion",
         )
     },
     "pressed": "disks",

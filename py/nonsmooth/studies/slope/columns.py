@@ -2,7 +2,7 @@
 
 from ...records.columns import BONDS, STEP, TIME, Column, count, declared
 
-__all__ = ["COLUMNS", "WALL_COLUMNS"]
+__all__ = ["COLUMNS", "ERODING", "LEDGER_COLUMNS", "WALL_COLUMNS"]
 
 #: Of ``series.csv``: {name: Column}. Where slip surfaces lie one above another, each has some of them for itself, see
 #: :data:`.records.columns.OWN`.
@@ -71,6 +71,38 @@ COLUMNS = declared(
     Column(
         "energy_error_rel", "1", "what the energy balance leaves over, relative; 0 while settling, as it begins then"
     ),
+)
+
+
+#: Of ``series.csv`` besides, where the section has windows that take disks out: {name: Column}.
+ERODING = declared(
+    count("eroded_disks", "disks that have been taken out so far; those of the row's own time show in the next one"),
+    Column("eroded_kg_per_m", "kg/m", "mass of these disks, the sum of the ledger, eroded.csv"),
+    Column(
+        "energy_eroded_J",
+        "J/m",
+        "kinetic and potential energy, 0 at the origin, that they had when they were taken out, and that left with them",
+    ),
+    Column("eroded_shift_x_m", "m", "how far the centre of mass has jumped as they were taken out, x"),
+    Column("eroded_shift_y_m", "m", "the same, y"),
+)
+
+#: Of ``eroded.csv``, the ledger, a row for each disk that was taken out: {name: Column}.
+LEDGER_COLUMNS = declared(
+    STEP,
+    TIME,
+    Column("window", "-", "name of the window that took it", str),
+    Column("window_time_s", "s", "time of the window then, since t0, without that in which it stood still"),
+    count("disk", "number of the disk, as in snapshots and in breaks.csv"),
+    Column("layer", "-", "name of its layer", str),
+    Column("mass_kg_per_m", "kg/m", "its mass"),
+    Column("x_m", "m", "where its centre was, x"),
+    Column("y_m", "m", "the same, y"),
+    Column("r_m", "m", "its radius"),
+    Column("vx_m_per_s", "m/s", "its velocity, x"),
+    Column("vy_m_per_s", "m/s", "the same, y"),
+    Column("energy_kinetic_J", "J/m", "its kinetic energy, with that of its rotation"),
+    Column("energy_potential_J", "J/m", "its potential energy, 0 at the origin"),
 )
 
 

@@ -49,6 +49,7 @@ def test_shipped_sections_are_listed(in_process):
         ("flume", 500, 0.7),
         ("interface", 1500, 5.3),
         ("jiufengershan", 300, 0.5),
+        ("undercut", 400, 3.2),
     ],
 )
 def test_every_shipped_section_begins(name, disks, end, in_process, monkeypatch, tmp_path):
