@@ -6,14 +6,15 @@ Rules:
   are one time, at one row;
 * with ``hold: motion`` it takes nothing while the slope moves; where the slope comes to rest again without having got
   going, it goes on where it was, later by as long as that took;
-* no window takes anything before t0, of a slope that failed dry, or once the course is over.
+* no window takes anything before t0, of a slope that failed dry, or once the course is over; the course is not over
+  while one may, but that those which hold are not waited for once the slope has got going.
 """
 
 from __future__ import annotations
 
 from dataclasses import replace
 
-__all__ = ["clock", "due", "may_take", "noted"]
+__all__ = ["acting", "clock", "due", "may_take", "noted"]
 
 
 def clock(window, state, time) -> float:
@@ -48,8 +49,16 @@ def due(before, state, section) -> list:
 
 
 def may_take(state, step, section) -> bool:
-    """Whether a window may yet take disks; ``step`` [s]: of the simulation."""
-    return state.failed_dry is None and any(not _over(window, state, step) for window in section.erosion)
+    """Whether a window may yet take disks, of those that do not hold where the slope moves; ``step`` [s]: of the
+    simulation.
+    """
+    goes_on = [w for w in section.erosion if w.hold == "never" or state.moving is None]
+    return state.failed_dry is None and any(not _over(window, state, step) for window in goes_on)
+
+
+def acting(state, step, section) -> bool:
+    """Whether a window has begun to take disks and goes on; ``step`` [s]: of the simulation."""
+    return any(w.name in state.erosion_taken and not _over(w, state, step) for w in section.erosion)
 
 
 def _over(window, state, step):

@@ -179,7 +179,7 @@ class StudyRun(Opened):
 class SlopeRun(StudyRun):
     """A run of a slope."""
 
-    kind, COLUMNS, FURTHER = "slope", slope_columns.COLUMNS, slope_columns.ERODING
+    kind, COLUMNS, FURTHER = "slope", slope_columns.COLUMNS, slope_columns.FURTHER
     #: The columns of ``walls.csv``: {name: Column}.
     WALL_COLUMNS = slope_columns.WALL_COLUMNS
     TABLES = ("series", "walls", "breaks", "eroded")

@@ -88,7 +88,6 @@ def test_one_that_holds_takes_nothing_of_an_avalanche():
 
 def test_a_slope_is_not_over_while_a_window_may_yet_take():
     """One that stands ends 10 s after the last load has come."""
-    over = lambda *windows: play(steps(), *windows, until=70.0)  # noqa: E731
     ends = []
     for windows in ((), (cut(begin=20.0),), (cut(end=30.0),)):
         stages = section.Stages(section.Settle(1.0, 3.0, 5e-3), 0.5, "motion", section.End(80.0, 0.02, 5.0))
@@ -100,9 +99,32 @@ def test_a_slope_is_not_over_while_a_window_may_yet_take():
             state = course.after(course.noted(state, seen, at), seen, s, at)
         ends.append(time - T0)
     assert ends == pytest.approx([10.1, 30.0, 40.0], abs=0.11)
-    assert times(over(cut(begin=20.0))[0]) == [20.0]
+    assert times(play(steps(), cut(begin=20.0), until=70.0)[0]) == [20.0]
 
 
 def test_nothing_is_taken_in_the_row_that_ends_the_course():
     found, state = play(steps(), cut(end=9.0), end=5.0)
     assert state.stage == "done" and times(found)[-1] == pytest.approx(5.0 - 0.5 - 0.1)
+
+
+def test_an_avalanche_is_over_while_a_window_that_holds_waits_and_not_while_another_takes():
+    """It rests 10 s after it began, and is over 5 s later."""
+    speed = steps((T0 + 2.0, 3.0), (T0 + 12.0, 1e-3))
+    ended = {}
+    for hold in ("motion", "never"):
+        found, state = play(speed, cut(end=30.0, hold=hold), until=70.0)
+        assert state.stage == "done" and len(found) > 5
+        ended[hold] = state.resting_since, round(found[-1][0], 1)
+    assert ended == {"motion": (pytest.approx(T0 + 12.0), 1.9), "never": (pytest.approx(T0 + 12.0), 30.0)}
+
+
+def test_a_slope_from_which_disks_are_taken_is_not_still():
+    s = dataclasses.replace(SHIPPED, water=None, erosion=(cut(end=20.0), cut("late", 25.0)))
+    state, at = course.State(stage="water", t0=0.0, table_since=0.0), scales.of(s)
+
+    def still(state, time):
+        return course.care(state, course.Seen(time, STEP, 1e-3), s, at)[1]
+
+    taking = dataclasses.replace(state, erosion_taken={"cut": 10.0})
+    over = dataclasses.replace(state, erosion_taken={"cut": 20.0})
+    assert (still(state, 9.0), still(taking, 10.0), still(over, 21.0)) == (True, False, True)

@@ -18,6 +18,7 @@ from . import data as section_data, values as section_values
 from .erosion import Window
 from .parts import Disks, Envelope, Interface, Layer, Material, Numerics, Stages, Wall, Water, normal_of
 from .reader import SectionError
+from .shaking import Shaking
 
 __all__ = ["Section"]
 
@@ -52,6 +53,7 @@ class Section:
     pressed: bool = False
     unusual: tuple[str, ...] = ()
     erosion: tuple[Window, ...] = ()
+    shaking: Shaking | None = None
     scale: float = 1.0
     like: tuple[Section, float] | None = dataclasses.field(default=None, compare=False, repr=False)
     given: section_values.Given | None = dataclasses.field(default=None, compare=False, repr=False)

@@ -12,7 +12,7 @@ import dataclasses
 import math
 
 from ...system import checks
-from . import building as section_building, data as section_data, values as section_values
+from . import building as section_building, data as section_data, shaking as section_shaking, values as section_values
 from .reader import SectionError
 from .section import Section
 from .reader import Document
@@ -45,6 +45,8 @@ POWERS = {
     "erosion.velocity": SPEED,
     "erosion.path": (TIME, LENGTH, LENGTH),
     "erosion.opening.time": TIME,
+    "shaking.begin": TIME,
+    "shaking.stretch": TIME,
     "stages.settle.ramp": TIME,
     "stages.settle.time_max": TIME,
     "stages.settle.speed_rest": SPEED,
@@ -92,6 +94,8 @@ def _mirrored(data):
     if isinstance(water.get("pressure_gradient"), list):
         x, y = water["pressure_gradient"]
         water["pressure_gradient"] = [0.0 - x, y]
+    if "shaking" in data:
+        data["shaking"] = section_shaking.mirrored(data["shaking"])
     return data
 
 

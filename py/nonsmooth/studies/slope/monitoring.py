@@ -9,12 +9,14 @@ import numpy as np
 from yade import O
 
 from ... import course, packing, records
+from ...course import triggers
+from ...measure import surface_slip
 from ...measure.fronts import front_of
 from ...model import scales
 from ...records.columns import without
 from ...world import tables
 from . import slope
-from .columns import COLUMNS, ERODING
+from .columns import COLUMNS, ERODING, OF_SHAKING, PERMANENT
 from .eroding import Eroding
 from .error import ExperimentError
 from .wall_series import WallSeries
@@ -66,6 +68,10 @@ class SlopeMonitor:
         }
         self.columns |= ERODING if self.section.erosion else {}
         self.eroding = None
+        self._begin = self._surfaces = None  # the Snapshot of t0, and its slip surfaces
+        if self.section.shaking is not None:
+            names = [records.column(PERMANENT.name, name) for name, _ in self.section.slip_surfaces]
+            self.columns = self.columns | OF_SHAKING | {name: PERMANENT._replace(name=name) for name in names}
 
     def open_walls(self, path, mark=None):
         """Opens the file of walls, and returns its WallSeries; ``mark``: of a checkpoint."""
@@ -100,6 +106,12 @@ class SlopeMonitor:
         """Values of all disks, (count, …), as those of the ones that are there."""
         return values if len(disks["id"]) == self.slope.count else values[disks["id"] - self.slope.first_disk]
 
+    def note_begin(self, path):
+        """Reads the snapshot of t0, from which on ways are counted."""
+        if self.section.shaking is not None:
+            self._begin = records.read_snapshot(path)
+            self._surfaces = surface_slip.surfaces(self.section, self._begin)
+
     # ---- what the course decides by ----------------------------------------------------------
     def seen(self, state, disks, more):
         """What :func:`.course.slope.after` decides by, a course.Seen; ``more``: whether a script may do more to it."""
@@ -130,13 +142,14 @@ class SlopeMonitor:
     def _outside(self, state, e):
         """Energy that came from elsewhere than weight and water [J/m]: of walls that move, of what a script did between
         steps since the slope settled (until then gravity, which grows, is counted there too) and, as long as all is
-        dry, of forces that others put on disks. None with soft contacts, which nobody counts. It is 0 to the last bit
+        dry and nothing shakes, of forces that others put on disks. None with soft contacts, which nobody counts. It is 0 to the last bit
         where nobody has done anything."""
         if not self.hard:
             return None
         wet = state.wet or (self.slope.water is not None and self.slope.water.wetCount > 0)
+        shaken = triggers.begun(self.section, course.loads_since(state), O.time)
         brought = 0.0 if state.stage == "settle" else abs(self._brought(e))
-        return brought + abs(e.wallWork) + (0.0 if wet else abs(e.externalWork))
+        return brought + abs(e.wallWork) + (0.0 if wet or shaken else abs(e.externalWork))
 
     def _brought(self, e):
         """What others than windows brought [J/m]: what the engine counts, less that of disks which were taken out, to
@@ -240,6 +253,8 @@ class SlopeMonitor:
         for name, force in of_surfaces.items():
             share = lift * self._share(disks, self._borne_by[name]) if water else 0.0
             row |= self._of_surface(name, force, share)
+        if section.shaking is not None:
+            row |= self._of_shaking(disks)
         return row | self._of_solver(state, e) if self.hard else row
 
     def _of_surface(self, name, force, u):
@@ -249,6 +264,18 @@ class SlopeMonitor:
         slip = self.walls.slip(name)
         values = (force[0] + u, force[0], u, force[1], force[2], slip.mean, slip.weakened)
         return {records.column(column, name): value for column, value in zip(records.OWN, values, strict=True)}
+
+    def _of_shaking(self, t):
+        """The columns of a slope that is shaken."""
+        x, y, _ = self.slope.shaking.acceleration
+        values = {"ground_acceleration_x_m_per_s2": x, "ground_acceleration_y_m_per_s2": y}
+        if self._surfaces is None:  # before t0
+            slipped = dict.fromkeys((name for name, _ in self.section.slip_surfaces), 0.0)
+        else:
+            slipped = surface_slip.displacements(
+                self._surfaces, self._begin, t["x"], t["y"], t["id"] - self.slope.first_disk
+            )
+        return values | {records.column(PERMANENT.name, name): value for name, value in slipped.items()}
 
     def _share(self, t, part):
         """The part of the water's force that acts on what slip surfaces bear: these disks, or this part of each (None:

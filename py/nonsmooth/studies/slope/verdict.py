@@ -12,18 +12,20 @@ from dataclasses import dataclass
 import numpy as np
 
 from ... import course, records
+from ...course import triggers
 from ...measure import centroid
 from ...model import scales
 
 __all__ = ["MEANINGS", "TITLES", "Verdict", "of"]
 
-STOOD, SLID, DRY, MOVED, WATER, ERODED, RESTLESS, UNFINISHED = (
+STOOD, SLID, DRY, MOVED, WATER, ERODED, SHAKEN, RESTLESS, UNFINISHED = (
     "stood",
     "slid",
     "failed dry",
     "moved dry",
     "failed by water",
     "failed by erosion",
+    "failed by shaking",
     "not at rest",
     "not over",
 )
@@ -36,6 +38,7 @@ MEANINGS = {
     "had been at rest under its weight",
     WATER: "it moved off once water acted on it",
     ERODED: "it moved off once disks had been taken out of it, whether water acted on it too or not",
+    SHAKEN: "it moved off once the ground shook, while water acted on it or dry",
     RESTLESS: "it had neither moved off nor come to rest when the run ended",
     UNFINISHED: "the run was stopped before it was known",
 }
@@ -49,6 +52,7 @@ TITLES = {
     MOVED: "the slope moved dry",
     WATER: "the slope failed by water",
     ERODED: "the slope failed by erosion",
+    SHAKEN: "the slope failed by shaking",
     RESTLESS: "the slope did not come to rest",
     UNFINISHED: "the run is not over",
 }
@@ -77,17 +81,22 @@ def of(series, section, state, times, disks=None) -> Verdict:
         if times["t5"] is not None
         else f"; it had not come to rest at {last:.1f} s, when the run {'ended' if over else 'was stopped'}"
     )
+    start = triggers.since(state.get("t0"), state.get("failed_dry"))
     eroded = state.get("failed_dry") is None and _eroded(series, moved)
-    if state.get("failed_dry") is not None or not (eroded or _wet(series, moved)):
+    # what moves after the record, in water or eroded, is not the record's
+    shaken = (triggers.acting if eroded or _wet(series, moved) else triggers.begun)(section, start, moved)
+    if not shaken and (state.get("failed_dry") is not None or not (eroded or _wet(series, moved))):
         return _dry(series, section, state, moved, rest)
     fast = float(np.max(series["speed_mean_m_per_s"][series["time_s"] >= moved - 1e-9]))
     table = _at(series, "water_m", moved)
     if not over and fast < scales.of(section).going_speed:
-        at = f"with {eroded}" if eroded else f"with the water table at {table:.4g} m"
+        at = f", with {eroded}" if eroded else f", with the water table at {table:.4g} m" * (section.water is not None)
         return Verdict(
             UNFINISHED,
-            f"the run was stopped at {last:.1f} s, while the slope moved and could still have come to rest again; it began to at {moved:.1f} s, {at}",
+            f"the run was stopped at {last:.1f} s, while the slope moved and could still have come to rest again; it began to at {moved:.1f} s{at}",
         )
+    if shaken:
+        return _shaken(series, section, state, moved, start, rest)
     if eroded:
         return _by_erosion(series, state, moved, eroded, table, rest)
     failure = table if times["t1"] is None else _at(series, "water_m", times["t1"])
@@ -95,6 +104,17 @@ def of(series, section, state, times, disks=None) -> Verdict:
     return Verdict(
         WATER,
         f"the slope failed by water, with the table at {failure:.4g} m; it began to move at {moved:.1f} s{rest}{also}",
+    )
+
+
+def _shaken(series, section, state, moved, start, rest):
+    """Of a slope that moved off while the ground shook."""
+    since, motion = moved - start - section.shaking.begin, section.shaking.motion
+    also = _also(state, "the shaking")
+    return Verdict(
+        SHAKEN,
+        f"the slope failed by shaking{_load(series, section, None, moved)}; it began to move at {moved:.1f} s, {since:.1f} s after the record began, whose largest acceleration is "
+        f"{motion.peak_acceleration():.3g} m/s²{rest}{also}",
     )
 
 

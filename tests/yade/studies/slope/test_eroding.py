@@ -83,6 +83,11 @@ def of_floor(folder, since):
     return walls["normal_N_per_m"][walls["time_s"] >= since]
 
 
+def masses(radii):
+    """Of disks, as scene.disk gives them [kg/m]."""
+    return [DENSITY * math.pi * (r * r) for r in radii]
+
+
 # ---- the world --------------------------------------------------------------------------------------
 def test_what_is_left_keeps_its_motion_and_what_it_bears():
     """Of four disks in a heap that slides, the highest is taken: momentum of the others to the last bit, and the forces
@@ -176,9 +181,8 @@ def test_a_whole_layer_on_top_is_taken_out_to_the_last_bit(rock, tmp_path):
     top = np.flatnonzero(start.layer == 1)
     assert sorted(ledger["disk"]) == top.tolist() and len(top) == 3
     assert (np.diff(ledger["x_m"]) > 0).all() and len(set(ledger["time_s"])) == 3  # one after the other
-    mass = lambda radii: [DENSITY * math.pi * (r * r) for r in radii]  # noqa: E731
     assert math.fsum(ledger["mass_kg_per_m"]) == series["eroded_kg_per_m"][-1]
-    assert math.fsum([*ledger["mass_kg_per_m"], *mass(end.r)]) == math.fsum(mass(start.r))
+    assert math.fsum([*ledger["mass_kg_per_m"], *masses(end.r)]) == math.fsum(masses(start.r))
     assert series["eroded_disks"][-1] == 3 and (np.diff(series["eroded_disks"]) >= 0).all()
     assert end.number.tolist() == [k for k in range(12) if k not in top] and (end.layer == 0).all()
     assert start.number is None and (end.ci < 9).all() and (end.cj < 9).all() and end.weakened.shape == (9, 0)
