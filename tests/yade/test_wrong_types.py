@@ -26,13 +26,22 @@ from yade.nonsmooth import (
 )
 from yade.nonsmooth.errors import UserError
 from yade.nonsmooth.heaps import column
-from yade.nonsmooth.laboratory import biaxial_test, campaign as tests_of_rock, materials, report
+from yade.nonsmooth.laboratory import (
+    biaxial_test,
+    campaign as tests_of_rock,
+    materials,
+    pressing,
+    report,
+    tension_report,
+    tension_test,
+)
 from yade.nonsmooth.system import checks
 from yade.wrapper import ContactDynamicsEngine, NscdMat, PorePressureEngine
 
 pytestmark = pytest.mark.usefixtures("empty")
 NAN, INF = math.nan, math.inf
 CIRCLE = section.load("circle")
+TENSION = tension_test.TensionTest(materials.load("wwr"), pressing.Shape(300, 1))
 
 
 def stuff():
@@ -166,6 +175,12 @@ CALLS = [
     ("summary", lambda v: report.pressures(v), (None, "x", {"tests": []}, {"by_pressure": []}), "give the summary of a campaign"),
     ("summary", lambda v: report.draw("out", v), (None, "x", {"tests": []}, {"tests": [], "seeds": []}), "give the summary of a campaign"),
     ("out", lambda v: report.draw(v, {"tests": [{}], "seeds": [1]}), (None, 3, ""), "give the path of the folder"),
+    ("summary", lambda v: tension_report.table(v), (None, "x", {}), "give the summary of a campaign of tension tests"),
+    ("summary", lambda v: tension_report.draw("out", v), (None, "x", {"groups": []}), "give the summary of a campaign of tension tests"),
+    ("out", lambda v: tension_report.draw(v, {"tests": [{}], "groups": [{}]}), (None, 3, ""), "give the path of the folder"),
+    ("material", lambda v: tension_test.TensionTest(v, None), (None, "wwr", 3), "give a section.Material"),
+    ("tests", lambda v: campaign.run_tension_tests(v, "out"), (None, "x", [1], 3, []), "give a list of tension_test.TensionTest|give one tension_test.TensionTest or more"),
+    ("out", lambda v: campaign.run_tension_test(TENSION, v), (None, 3, ""), "give the path of a folder for the tests"),
     ("base", lambda v: campaign.sweep(v, {}), (None, "circle", {}), "give a Section"),
     ("over", lambda v: campaign.sweep(CIRCLE, v), (None, "seed", [1], 3), "give a dictionary {key: values}"),
     ("seed:", lambda v: campaign.sweep(CIRCLE, {"seed": v}), (None, "12", 3), "give the values to run with"),

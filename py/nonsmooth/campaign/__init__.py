@@ -6,6 +6,7 @@ table; and single runs of every kind. Needs no YADE: each run has a process of i
 * :mod:`cluster`: the same plan for Snakemake and for Slurm;
 * :mod:`safety`: factors of safety;
 * :mod:`heaps`: columns and piles;
+* :mod:`laboratory`: tension tests of a rock;
 * :mod:`scripts`: lessons and any script; :mod:`script_run`: what a process does with one (in YADE);
 * :mod:`comparisons`: hard against soft.
 
@@ -19,6 +20,7 @@ Like this::
 
 from .comparisons import ComparisonError, ComparisonRun, open_comparison, run_comparison
 from .heaps import HeapRun, open_heap, run_column, run_heaps, run_pile
+from .laboratory import run_tension_test, run_tension_tests
 from .plan import SEED, Plan, PlanError, Planned, collect, means, read, run_one
 from .safety import factors_of_safety, run_factor_of_safety
 from .scripts import LESSONS, ScriptError, ScriptRun, lesson, lessons, open_script, run_lesson, run_script, run_scripts
@@ -55,5 +57,7 @@ __all__ = [
     "run_script",
     "run_scripts",
     "run_slope",
+    "run_tension_test",
+    "run_tension_tests",
     "sweep",
 ]

@@ -15,11 +15,15 @@ Of a slope:
 * :mod:`.creep`: how fast a mass goes on moving
 * :mod:`.weakening`: which part of a slip surface has lost its strength
 * :mod:`.newmark`: how far a rigid block slides on a plane that shakes
+* :mod:`.vertical_cut`: the height to which a vertical face stands
 
 Of tests and heaps:
 
 * :mod:`.strength`: peak, plateau, dilatancy, and the envelope of the circles
 * :mod:`.bands`: shear bands from the rotation of disks
+* :mod:`.tensile`: peak and work of a tension test
+* :mod:`.fracture`: place and inclination of the break
+* :mod:`.weakest_cut`: what the bonds of a sample bear in tension at most
 * :mod:`.fluctuations`, :mod:`.cycles`: how the stress fluctuates, and its rises and drops
 * :mod:`.heap`: front, surface, angle of repose and overlaps from places alone
 * :mod:`.velocity_profiles`: speed against height in a mass that spreads, and what of it rests

@@ -4,7 +4,7 @@ video. Needs no YADE.
 Like this::
 
     run = runs.open_run("out/hill")
-    run.kind                           # "slope", "factor of safety", "biaxial test", "slide" or "heap"
+    run.kind                           # "slope", "factor of safety", "biaxial test", "tension test", "slide" or "heap"
     run.summary["water_at_failure_m"]
     run.series["front_m"]              # {column: array}; run.frame("series") is a pandas.DataFrame
     run.figure("forces")               # a matplotlib Figure, with axes to draw on
@@ -27,7 +27,7 @@ from ..model.section import data as section_data
 from ..system import checks, requirements
 from ..system.whole_files import whole
 from .heaps import columns as heap_columns, study
-from .laboratory import biaxial_test, wall_shear
+from .laboratory import biaxial_test, tension_campaign, tension_test, wall_shear
 from .safety import columns as safety_columns, results as safety_results
 from .slope import columns as slope_columns, frames, results
 
@@ -43,6 +43,7 @@ __all__ = [
     "SlideRun",
     "SlopeRun",
     "StudyRun",
+    "TensionRun",
     "open_run",
 ]
 
@@ -306,6 +307,38 @@ class BiaxialRun(StudyRun):
     kind, COLUMNS = "biaxial test", biaxial_test.COLUMNS
 
 
+class TensionRun(StudyRun):
+    """A direct tension test, see :mod:`.laboratory.tension`: its snapshots are "begin", "peak", "0.5", "1", "2"
+    (openings in half-axes of a mean bond's ellipse) and "end".
+    """
+
+    kind, COLUMNS = "tension test", tension_test.COLUMNS
+    TABLES = ("series", "breaks")
+
+    @cached_property
+    def test(self):
+        """The TensionTest that was run."""
+        return tension_test.TensionTest.of(json.loads(self._file("request.json").read_text())["arguments"])
+
+    @cached_property
+    def strength(self) -> dict:
+        """What the test says, see laboratory.tension_campaign.measure: ``tensile_strength_Pa``, ``strain_peak``, place
+        and inclination of the break. Raises RunError where it has not ended.
+        """
+        self._file(RESULT)
+        return tension_campaign.measure(self.test, self.folder)
+
+    def figure(self, name="tension"):
+        """``tension``: stress against strain, and the broken sample, as a matplotlib Figure that is not written. Raises
+        RunError for another name, and where the test has not ended.
+        """
+        if name != "tension":
+            raise RunError(f"{self.folder}: no figure is called {name!r}; give tension")
+        from ..figures import tension  # brings matplotlib, which a reader of numbers need not wait for
+
+        return tension.tests([(self.series, self.strength)], tension.Broken.of(self.folder, self.strength))
+
+
 class SlideRun(StudyRun):
     """A block that slides on a wall, see :mod:`.laboratory.wall_shear`."""
 
@@ -360,7 +393,7 @@ def open_run(folder) -> StudyRun:
         names = {None}
     if (run.folder / section_data.FILE).is_file():
         return SafetyRun(folder) if names == set(SafetyRun.COLUMNS) else run
-    for kind in (BiaxialRun, SlideRun, HeapRun):
+    for kind in (BiaxialRun, TensionRun, SlideRun, HeapRun):
         if names <= set(kind.COLUMNS):
             return kind(folder)
     raise RunError(

@@ -16,7 +16,7 @@ from yade.nonsmooth import campaign as campaigns, errors, experiment, lessons, p
 from yade.nonsmooth.heaps import study
 from yade.nonsmooth.judges.benchmark import scale, suite
 from yade.nonsmooth.judges.verification import runner, soak
-from yade.nonsmooth.laboratory import calibration, campaign, effects, rock_table, table1, wall_shear
+from yade.nonsmooth.laboratory import calibration, campaign, effects, rock_table, table1, tension_campaign, wall_shear
 from yade.nonsmooth.studies.comparison import cost, course
 from yade.nonsmooth.studies.paper import paper_slopes, readings
 from yade.nonsmooth.studies.slope import slope
@@ -90,6 +90,7 @@ HOLDER = {  # what a command asks: a module or class, and its function
     "paper.py": (paper_slopes, "run"),
     "readings.py": (readings, "run"),
     "table1.py": (table1, "run"),
+    "tension_test.py": (tension_campaign, "run"),
     "rocks.py": (rock_table, "run"),
     "verify.py": (runner, "run_checks"),
     "wedge.py": (subprocess, "run"),
@@ -112,7 +113,7 @@ OTHERS = {
 
 
 def ran_by(a):
-    """Of biaxial.py and wall_shear.py."""
+    """Of biaxial.py, tension_test.py and wall_shear.py."""
     return a.words[0]
 
 
@@ -217,6 +218,27 @@ WHERE = {
         "--closing-bonds": (("--closing-bonds",), lambda a: first(a).material.bonds_close, True),
         # the last 3 % of strain, and no more than the plateau
         "--cycle": (("--cycle", "--strain", 0.2), lambda a: round(first(a).forces_from, 9), 0.17),
+        "--out": ((), lambda a: str(a.words[1]), "{out}"),
+        "--threads": (("--threads", 7), lambda a: a.words[2], 7),
+        "--resume": (("--resume",), lambda a: a.words[3], True),
+    },
+    "tension_test.py": {
+        "--material": (
+            ("--material", "{files}/stone.yaml"),
+            lambda a: (first(a).material.friction, first(a).material.name),
+            (0.35, "stone"),
+        ),
+        "--disks": (("--disks", 77, 99, "--grip", 0), lambda a: sorted({t.shape.count for t in ran_by(a)}), [77, 99]),
+        "--diameter": (("--diameter", 1.5, 2.5), lambda a: (first(a).shape.d_min, first(a).shape.d_max), (1.5, 2.5)),
+        "--fraction": (("--fraction", 0.8), lambda a: first(a).shape.fraction, 0.8),
+        "--aspect": (("--aspect", 1.5), lambda a: first(a).shape.aspect, 1.5),
+        "--seeds": (("--seeds", 3, 4), lambda a: [t.shape.seed for t in ran_by(a)], [3, 4]),
+        "--inertia": (("--inertia", 3e-4, 1e-4, "--seeds", 1), lambda a: [t.inertia for t in ran_by(a)], [3e-4, 1e-4]),
+        "--grip": (("--grip", 1.5), lambda a: first(a).grip, 1.5),
+        "--fallen": (("--fallen", 0.2), lambda a: first(a).fallen, 0.2),
+        "--opening": (("--opening", 0.3), lambda a: first(a).opening, 0.3),
+        "--step": (("--step", 0.2), lambda a: first(a).step, 0.2),
+        "--tolerance": (("--tolerance", 1e-3), lambda a: first(a).tolerance, 1e-3),
         "--out": ((), lambda a: str(a.words[1]), "{out}"),
         "--threads": (("--threads", 7), lambda a: a.words[2], 7),
         "--resume": (("--resume",), lambda a: a.words[3], True),
@@ -621,6 +643,11 @@ def test_checks_are_listed(in_process):
             "--start granite: neither a file nor one of",
         ),
         ("wall_shear.py", ("--material", "dp", "--bonded"), "--bonded with dp: its tensile strength is 0"),
+        ("tension_test.py", ("--diameter", 4, 1), "--diameter 4 1: give the smallest first"),
+        ("tension_test.py", ("--material", "dp"), "it bears no tension; give a material that is bonded"),
+        ("tension_test.py", ("--grip", 30), "grip 30.0: give mean diameters from 0 to 15.2"),
+        ("tension_test.py", ("--disks", 500, 500), "--disks: 500 500: give each once"),
+        ("tension_test.py", ("--opening", 0.01), "opening 0.01: give mean diameters above 0.04"),
         ("wall_shear.py", ("--pressures", "1"), "give 2 or more positive pressures"),
         ("wall_shear.py", ("--pressures", "1,1"), "each once"),
         ("biaxial_effects.py", ("--confining", -1), "it must be positive"),
@@ -649,6 +676,7 @@ def test_checks_are_listed(in_process):
                 ("biaxial_effects",),
                 ("readings",),
                 ("table1",),
+                ("tension_test",),
                 ("wall_shear",),
                 ("calibrate", "--cohesion", 5e4, "--friction", 30),
             )

@@ -10,11 +10,13 @@ import pytest
 import synthetic_slope as synthetic
 
 runs, records = synthetic.load("studies.runs"), synthetic.load("records")
-biaxial_test, wall_shear, heap_columns = (
-    synthetic.load(f"studies.{name}") for name in ("laboratory.biaxial_test", "laboratory.wall_shear", "heaps.columns")
+biaxial_test, tension_test, wall_shear, heap_columns = (
+    synthetic.load(f"studies.{name}")
+    for name in ("laboratory.biaxial_test", "laboratory.tension_test", "laboratory.wall_shear", "heaps.columns")
 )
 STUDIES = [
     ("biaxial test", biaxial_test.COLUMNS, runs.BiaxialRun),
+    ("tension test", tension_test.COLUMNS, runs.TensionRun),
     ("slide", wall_shear.COLUMNS, runs.SlideRun),
     ("heap", heap_columns.COLUMNS, runs.HeapRun),
 ]

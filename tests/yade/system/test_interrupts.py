@@ -61,6 +61,7 @@ def test_ctrl_c_writes_a_checkpoint_and_the_run_goes_on_with_the_same_bytes(sect
     [
         ("biaxial.py", ("--disks", 400, "--confining", "1", "--threads", 1)),
         ("biaxial_effects.py", ("--seeds", 1, "--threads", 1, "--only", "step")),
+        ("tension_test.py", ("--disks", 400, "--seeds", 1, "--threads", 1)),
         ("wall_shear.py", ("--material", "dp", "--seeds", 1, "--threads", 1)),
         ("rocks.py", ("--threads", 1)),
         ("column.py", ("--disks", 400, "--aspect", "1", "--threads", 1)),

@@ -1,4 +1,4 @@
-"""Laboratory tests of granular rock: biaxial compression, sliding on a wall, envelopes, calibration.
+"""Laboratory tests of granular rock: biaxial compression, direct tension, sliding on a wall, envelopes, calibration.
 
 Strength of a slope comes from tests of a sample of its rock (Taboada and Estrada 2009, sections 3.2.1, 3.3 and 5.2,
 Figures 9 to 11, Table 1).
@@ -9,6 +9,8 @@ Figures 9 to 11, Table 1).
 * :mod:`membrane`: sides that are flexible;
 * :mod:`biaxial_test`, :mod:`biaxial`: one test as data; from compression to the residual state, with checkpoints;
 * :mod:`campaign`, :mod:`report`: many tests side by side, and what they say together;
+* :mod:`tension_test`, :mod:`tension`, :mod:`tension_campaign`, :mod:`tension_report`: the same of direct tension;
+* :mod:`sample_course`, :mod:`sample_runs`: what both kinds share;
 * :mod:`effects`: what the strength depends on besides the material;
 * :mod:`wall_shear`: sliding of a block on a wall;
 * :mod:`table1`: the rock and the walls together, beside the paper's Table 1;

@@ -20,21 +20,18 @@ from pathlib import Path
 import numpy as np
 
 from yade import O
-from yade.wrapper import ContactDynamicsEngine
 
 from ... import records
 from ...course import driver
-from ...errors import UserError
 from ...measure import cycles
 from ...records import checkpoints
-from ...records.columns import without
 from ...running.kept_runs import Progress
 from ...system.whole_files import remove, remove_parts, whole
 from ...world import tables
 from ...world.stepping import advance
 from . import membrane, sample
 from .biaxial_test import COLUMNS, CYCLE, OF_SOLVER, PHASES, BiaxialTest, key_of
-from .walls import Walls
+from .sample_course import SampleCourse, TestError
 
 __all__ = ["COLUMNS", "OF_SOLVER", "ROW_STRAIN", "BiaxialCourse", "TestError", "keep_cycle", "run"]
 
@@ -42,31 +39,13 @@ RAMP = 0.002  # strain in which the platens reach their speed
 ROW_STRAIN = 1e-4  # between two rows of series.csv
 FILM = 100  # frames of a video, besides the first
 SNAPSHOTS = (0.01, 0.02, 0.04)  # strains, besides the begin and the end
-SAMPLES = 20  # of the forces on the walls in a row, with soft contacts; each step with hard ones
 SWITCHES = 20  # times that the membrane is laid anew while soft contacts come to rest in it
 
 
-class TestError(UserError, RuntimeError):
-    """A test that cannot go on; the message says why and what helps."""
-
-    __test__ = False  # no test of pytest's
-
-
-class BiaxialCourse(driver.Course):
+class BiaxialCourse(SampleCourse):
     """Runs a test and writes its records into ``folder``."""
 
-    def __init__(self, test, folder, body, state):
-        """``body``: the Sample in the scene; ``state``: dictionary of numbers that a checkpoint keeps."""
-        self.test, self.folder, self.sample, self.state = test, Path(folder), body, state
-        self.hard, self.progress = isinstance(body.engine, ContactDynamicsEngine), None
-        self.unsaved = None if self.hard else "a test of soft contacts"
-        self.series = records.SeriesWriter(
-            self.folder / "series.csv",
-            COLUMNS if self.hard else without(COLUMNS, OF_SOLVER),
-            resume_from=state.pop("series", None),
-            overwrite=True,
-        )
-        super().__init__(self.series, spent=state)
+    COLUMNS, KEY, SOFT = COLUMNS, staticmethod(key_of), "a test of soft contacts"
 
     # ---- begin ----------------------------------------------------------------------------------
     @classmethod
@@ -140,9 +119,7 @@ class BiaxialCourse(driver.Course):
     @classmethod
     def resume(cls, test, folder):
         """From the checkpoint in ``folder``; TestError where there is none or it is another test's."""
-        content = checkpoints.read(Path(folder), key_of(test), TestError)
-        body = sample.Sample(Walls(content["walls"], test.confining), content["first_disk"], content["count"])
-        course = cls(test, folder, body, content["state"] | {"series": content["series"]})
+        course = super().resume(test, folder)
         if test.sides == "flexible":
             course.state["pressed"] = []  # a saved scene keeps no permanent forces
             course._membrane()
@@ -168,32 +145,15 @@ class BiaxialCourse(driver.Course):
     def _where(self):
         return f"at a strain of {self.state['strain']:.4f}"
 
-    def _steps(self):
-        """Those of a row; returns the mean force on each wall [N/m], and what the solver's columns hold."""
-        s, engine, walls = self.state, self.sample.engine, self.sample.walls
-        # soft steps are thousands a row
-        least = 1 if self.hard else SAMPLES
-        per_row = max(least, round(ROW_STRAIN / (s["rate"] * O.dt)))
-        parts = [len(p) for p in np.array_split(np.arange(per_row), per_row if self.hard else SAMPLES)]
-        sums, worst, kinetic = {}, 0.0, 0.0
-        if self.hard:
-            sweeps, missed = engine.totalIterations, engine.unconverged
-        for part in parts:
-            elapsed = (O.time - s["begin_time"]) * s["rate"]
-            # the speed grows linearly with the time until half of twice RAMP's strain
-            share = min(1.0, (elapsed + 0.5 * part * s["rate"] * O.dt) / (2 * RAMP))
-            walls.drive("top", (0, -share * s["rate"] * s["height"]))
-            for _ in range(part):
-                walls.step()
-            if self.hard:
-                worst = max(worst, engine.residual)
-                kinetic += engine.kineticEnergy / per_row
-            for name, force in walls.forces().items():
-                sums[name] = sums.get(name, 0.0) + force / len(parts)
-        if not self.hard:
-            return sums, {}
-        solved = ((engine.totalIterations - sweeps) / per_row, worst, engine.unconverged - missed, kinetic)
-        return sums, dict(zip(OF_SOLVER, solved, strict=True))
+    def _steps_in_a_row(self):
+        return ROW_STRAIN / (self.state["rate"] * O.dt)
+
+    def _drive(self, steps):
+        s = self.state
+        elapsed = (O.time - s["begin_time"]) * s["rate"]
+        # the speed grows linearly with the time until half of twice RAMP's strain
+        share = min(1.0, (elapsed + 0.5 * steps * s["rate"] * O.dt) / (2 * RAMP))
+        self.sample.walls.drive("top", (0, -share * s["rate"] * s["height"]))
 
     def _look(self, made):
         s, test = self.state, self.test
@@ -260,15 +220,6 @@ class BiaxialCourse(driver.Course):
         self.series.write(row | solved)
 
     # ---- records --------------------------------------------------------------------------------
-    def snapshot(self, name, folder="snapshots"):
-        """Writes the present state with its forces as ``NAME.npz`` of a ``folder``, a records.Snapshot; walls are
-        numbered as in Walls.ids.
-        """
-        body = self.sample
-        numbers = {i: k for k, i in enumerate(body.walls.ids.values())}
-        loaded = tables.loaded_contacts(body.engine, body.first_disk, numbers)
-        self._keep(f"{folder}/{name}.npz", ("x", "y", "r", "angle", "vx", "vy"), **loaded)
-
     def frame(self, number):
         """Keeps disks and walls for the video as ``frames/NUMBER.npz``, a compact records.Snapshot, once for a
         ``number`` of :data:`FILM`.
@@ -277,30 +228,6 @@ class BiaxialCourse(driver.Course):
             return
         self.state["frame"] = number
         self._keep(f"frames/{number:04d}.npz", ("x", "y", "r", "angle"), compact=True)
-
-    def _keep(self, name, disks, **more):
-        t = tables.bodies(self.sample.engine)
-        records.write_snapshot(
-            self.folder / name,
-            time_s=O.time - self.state["begin_time"],
-            step=O.iter,
-            walls=self.sample.walls.lines(),
-            **{key: t[key] for key in disks},
-            **more,
-        )
-
-    def _save(self):
-        checkpoints.write(
-            self.folder,
-            key_of(self.test),
-            {
-                "walls": self.sample.walls.ids,
-                "first_disk": self.sample.first_disk,
-                "count": self.sample.count,
-                "state": self.state,
-                "series": self.series.mark(),
-            },
-        )
 
 
 def keep_cycle(folder, begin, end):

@@ -4,20 +4,17 @@ from __future__ import annotations
 
 import json
 import math
-import shutil
-from collections.abc import Iterable
 from dataclasses import asdict
 from pathlib import Path
 
 import numpy as np
 
 from ... import records
-from ...errors import UserError
 from ...measure import bands, cycles, fluctuations, strength
 from ...measure.statistics import Estimate, over_seeds
-from ...running import processes, side_by_side
 from ...system import checks
-from . import biaxial_test, pressing
+from . import biaxial_test, sample_runs
+from .sample_runs import CampaignError
 
 __all__ = [
     "OF_TEST",
@@ -43,10 +40,6 @@ OF_COURSE = (
 ).split()
 
 
-class CampaignError(UserError, RuntimeError):
-    """Tests that could not be run; the message says which and why."""
-
-
 def name_of(test):
     """Name of a test's folder."""
     return f"{test.confining / 1e6:g}MPa-seed{test.shape.seed}"
@@ -65,16 +58,7 @@ def run(tests, out, threads, resume=False, progress=lambda share, doing: None):
     done and what is being done, now and then. Raises CampaignError or SampleError before anything runs where tests
     cannot be run or measured; CampaignError with the first failure after the others have ended.
     """
-    checks.path("out", out, CampaignError, "give the path of a folder for the tests")
-    threads = checks.count("threads", threads, CampaignError, "give a whole number from 1, how many run at a time")
-    if not isinstance(tests, Iterable) or isinstance(tests, str):
-        raise CampaignError(f"tests {checks.shown(tests)}: give a list of biaxial_test.BiaxialTest")
-    home, tests = Path(out) / "tests", list(tests)
-    if not tests:
-        raise CampaignError("tests []: there is nothing to run; give one biaxial_test.BiaxialTest or more")
-    for test in tests:
-        if not isinstance(test, biaxial_test.BiaxialTest):
-            raise CampaignError(f"tests, {checks.shown(test)}: give a list of biaxial_test.BiaxialTest")
+    tests = sample_runs.checked(tests, out, threads, biaxial_test.BiaxialTest)
     for test in tests:
         if test.forces_from is not None:
             remedy = f"give a strain from 0 to less than {test.strain:g}, where the test ends, or None"
@@ -83,40 +67,10 @@ def run(tests, out, threads, resume=False, progress=lambda share, doing: None):
             raise CampaignError(
                 f"--strain {test.strain:g}: too short to measure a peak and what follows; give {strength.SHORTEST:g} or more"
             )
-    folders = [home / name_of(test) for test in tests]
-    made = [
-        side_by_side.Run(folder.name, folder, "studies.laboratory.biaxial:run", asdict(test), biaxial_test.key_of(test))
-        for test, folder in zip(tests, folders)
-    ]
-    side_by_side.check(made, CampaignError, "; give each confining pressure and seed once")
-    _press({test.shape for test in tests}, home, threads, progress)
-    side_by_side.run(
-        made,
-        threads,
-        resume,
-        CampaignError,
-        progress=lambda share, ended: progress(share, f"{len(made)} test{'s' if len(made) > 1 else ''}"),
-        go_on=True,
-    )
-    for folder in folders:
-        shutil.rmtree(folder / "checkpoint", ignore_errors=True)
+    made = [(name_of(test), test, biaxial_test.key_of(test)) for test in tests]
+    advice = "; give each confining pressure and seed once"
+    folders = sample_runs.run(made, out, threads, "studies.laboratory.biaxial:run", advice, resume, progress)
     return [measure(test, folder) for test, folder in zip(tests, folders)]
-
-
-def _press(shapes, home, threads, progress):
-    """Makes the samples that are not in the cache, before many tests ask for them."""
-    missing = sorted((s for s in shapes if pressing.CACHE.find(pressing.cache_path(s)) is None), key=lambda s: s.seed)
-    if not missing:
-        return
-    for shape in missing:
-        shape.section()  # refuses a sample that is too small, before anything runs
-    progress(0.0, f"pressing {len(missing)} sample{'s' if len(missing) > 1 else ''}")
-    folders = [home / f"pressing-{k}" for k in range(len(missing))]
-    with processes.pool(threads) as pool:
-        futures = [pool.submit(pressing.prepare, shape, folder) for shape, folder in zip(missing, folders)]
-        failures = [str(error) for f in futures if (error := f.exception())]
-    if failures:
-        raise CampaignError(f"a sample could not be made: {failures[0]}")
 
 
 def measure(test, folder):

@@ -33,7 +33,7 @@ class Sample:
         self.bonds = self.mass = None
 
     @classmethod
-    def build(cls, shape, rock, platen, pressure, world=None, tolerance=1e-5, **options):
+    def build(cls, shape, rock, platen, pressure, world=None, tolerance=1e-5, grips=None, **options):
         """Fills the (empty) scene; the sample rests under ``pressure`` [Pa], and is bonded where contacts are rigid.
 
         A pressed sample takes up the pressure and is then bonded. One that was not pressed is bonded first, and the
@@ -42,8 +42,9 @@ class Sample:
         ``shape``: of a sample that `pressing.prepare` made; ``rock``, ``platen``: section.Material of disks and of
         platens, sides have no friction;
         ``world``: a :class:`.worlds.Soft`; None: rigid contacts, solved to ``tolerance``, with ``options`` of
-        scene.engines, such as attributes of ContactDynamicsEngine. Raises WorldError for another: rigid contacts take
-        their step from the test.
+        scene.engines, such as attributes of ContactDynamicsEngine. ``grips``: (thickness [m], section.Material) of what
+        the disks are made of whose centres are so near to a platen; None: all are of the rock. Raises WorldError for
+        another world: rigid contacts take their step from the test.
         """
         if world is not None:
             worlds.check(world, (worlds.Soft,))
@@ -62,12 +63,25 @@ class Sample:
         side = replace(materials.smooth(platen), name="side", restitution=0.0)
         stuff, rough, smooth = world.material(rock), world.wall_material(platen), world.wall_material(side)
         O.materials.append((stuff, rough, smooth))
+        stuffs, held = [stuff] * len(pressed.r), []
+        if grips is not None:
+            thickness, grip = grips
+            strong = world.material(grip)
+            O.materials.append(strong)
+            held = np.flatnonzero(np.minimum(pressed.y, pressed.height - pressed.y) < thickness).tolist()
+            for k in held:
+                stuffs[k] = strong
         walls = Walls.around(pressed.width, pressed.height, rough, smooth)
         ids = O.bodies.append(
-            [scene.disk((float(x), float(y)), float(r), stuff) for x, y, r in zip(pressed.x, pressed.y, pressed.r)]
+            [
+                scene.disk((float(x), float(y)), float(r), m)
+                for x, y, r, m in zip(pressed.x, pressed.y, pressed.r, stuffs)
+            ]
         )
         O.engines, O.dt = world.engines(gravity=(0, 0, 0)), world.step_for([rock])
-        made = cls(walls, ids[0], len(ids), world.measures([(rock, list(ids))]))
+        # soft bonds are those of the first group that has both disks
+        groups = [] if grips is None else [(grip, [ids[k] for k in held])]
+        made = cls(walls, ids[0], len(ids), world.measures([*groups, (rock, list(ids))]))
         # the same mean, but for its last bits, which results keep
         made.mass = mass if hard else float(np.mean([O.bodies[i].state.mass for i in ids]))
         if not hard:
