@@ -4,6 +4,7 @@ from . import (
     course,
     drawing,
     engines,
+    erosion,
     impacts,
     laboratory,
     law,
@@ -35,6 +36,7 @@ MUTANTS = (
     + laboratory.MUTANTS
     + drawing.MUTANTS
     + water.MUTANTS
+    + erosion.MUTANTS
 )
 
 #: Mutants that no test sees, and why that is left so: {name: reason}.

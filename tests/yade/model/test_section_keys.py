@@ -283,6 +283,18 @@ def pressure(m, place=(-10.0, 3.0), time=0.0):
 
 OF_TABLE = {(*ROCK,): {"cohesion": 2e3, "friction_angle": 34.0, "density": 2500.0}}
 
+
+def window(**keys):
+    """Changes that give the block's slope a window which takes disks out, with these values."""
+    one = {"name": "cut", "vertices": [[0.0, 0.0], [3.0, 0.0], [3.0, 3.0], [0.0, 3.0]], "begin": 0.1}
+    return {("erosion",): [one | keys]}
+
+
+def took(time, *points):
+    """Whether the window takes points at a time [s since t0]."""
+    return lambda m: m.section.erosion[0].takes(*np.transpose(points), time).tolist()
+
+
 #: key: changes, where they are found, and what is found there; a list where a key acts in several places or takes
 #: several kinds of values. The last item, where there is one, is how far the slope is run [s], None: to its end.
 WHERE = {
@@ -357,6 +369,29 @@ WHERE = {
         lambda m: m.section.disk_areas()[1] / m.section.layers[1].area,
         pytest.approx(0.69, abs=0.01),
     ),
+    # test_erosion_windows and test_eroding follow them further
+    ("erosion", "*", "name"): (window(name="river"), lambda m: m.section.erosion[0].name, "river"),
+    ("erosion", "*", "vertices"): (window(vertices=[[0, 0], [3, 0], [3, 3]]), took(1, (2, 1), (1, 2)), [True, False]),
+    ("erosion", "*", "begin"): (window(begin=0.6), lambda m: m.section.erosion[0].begin, 0.6),
+    ("erosion", "*", "end"): (window(end=0.3), lambda m: m.section.erosion[0].end, 0.3),
+    ("erosion", "*", "velocity"): (window(end=3, velocity=[2, -1]), took(1.1, (2.5, -0.5), (1, 1)), [True, False]),
+    ("erosion", "*", "path"): (
+        window(end=3, path=[[0, 0, 0], [1, 4, 0]]),
+        took(0.5, (3.5, 1), (1.5, 1)),
+        [True, False],
+    ),
+    ("erosion", "*", "opening", "time"): (window(opening={"time": 0.4}), took(0.3, (1, 2.5), (1, 0.5)), [True, False]),
+    ("erosion", "*", "opening", "direction"): (
+        window(opening={"time": 0.4, "direction": [1, 0]}),
+        took(0.3, (0.5, 1), (2.5, 1)),
+        [True, False],
+    ),
+    ("erosion", "*", "layers"): (
+        window(layers=["L2"]),
+        lambda m: m.section.erosion[0].of_layers(m.section).tolist(),
+        [False, True],
+    ),
+    ("erosion", "*", "hold"): (window(hold="never"), lambda m: m.section.erosion[0].hold, "never"),
     ("interfaces", "*", "name"): (
         {**BETWEEN, ("interfaces",): [{**BETWEEN[("interfaces",)][0], "name": "joint 7"}]},
         lambda m: m.section.interfaces[0].name,

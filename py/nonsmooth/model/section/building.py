@@ -10,6 +10,7 @@ from .. import geometry, rocks, roles
 from . import (
     checks as section_checks,
     defaults as section_defaults,
+    erosion,
     shaking as section_shaking,
     units as section_units,
     values as section_values,
@@ -100,6 +101,7 @@ def build(document, source: str) -> Section:
             release = section_defaults.release_distance(section.area)
             section = dataclasses.replace(section, water=dataclasses.replace(section.water, release_distance=release))
         section_checks.check_release(section, document)
+    section = dataclasses.replace(section, erosion=erosion.windows(section, document))
     section = section_values.keep(section, given)
     return section.with_disks(size["count"]) if "count" in size else section
 

@@ -23,7 +23,7 @@ from yade.minieigenHP import Vector3
 from yade.wrapper import NewtonIntegrator, PartialEngine, PyRunner
 
 from ... import course, records
-from ...course import State, driver
+from ...course import State, driver, erosion
 from ...errors import UserError
 from ...model import scales
 from ...model.section import Section, data as section_data
@@ -81,6 +81,7 @@ class Experiment(driver.Course):
             kept = of_section.kept(self.section, self.field, self.folder)
             section_data.write(kept, self.folder / section_data.FILE)
         self.walls = self.monitor.open_walls(self.folder / "walls.csv", mark and mark["walls"])
+        self.eroding = self.monitor.open_ledger(self.folder / results.LEDGER, mark and mark["eroded"])
         if state is None:
             self.frames = frames.Frames(self.folder, self.section)
         else:
@@ -89,7 +90,7 @@ class Experiment(driver.Course):
                 self.monitor.note_begin(self.folder / results.BEGIN)
             rows = records.read_series(self.folder / "series.csv")
             self.frames = frames.Frames(self.folder, self.section, rows, asdict(state))
-        super().__init__(self.series, self.walls.file)
+        super().__init__(self.series, self.walls.file, *([self.eroding.file] if self.eroding else []))
         self.newton = next(e for e in O.engines if isinstance(e, NewtonIntegrator))
         self.damping = (self.newton.damping, self.newton.damping if damping_moving is None else damping_moving)
         if state is None:
@@ -215,14 +216,14 @@ class Experiment(driver.Course):
         if self.frames.takes(values, regular, asdict(course.after(s, seen, self.section, self.scales))):
             self.snapshot(self.frames.path(O.iter))
         self.frames.tidy()
-        self._decide(seen)
+        self._decide(seen, disks)
         self.progress(self.state.stage, O.time, course.foreseen(self.state, O.time, self.section))
 
     def _finish(self):
         self.checkpoint()
 
-    def _decide(self, seen):
-        """Goes on to the next state, and does what the change means."""
+    def _decide(self, seen, disks):
+        """Goes on to the next state, and does what the change means; ``disks``: their table."""
         before, self.state = self.state, course.after(self.state, seen, self.section, self.scales)
         changed = self.state.stage if self.state.stage != before.stage else None
         if changed == "dry":
@@ -237,6 +238,11 @@ class Experiment(driver.Course):
         begin = course.field_begin(self.state, self.section)
         if begin != course.field_begin(before, self.section):
             self.slope.water.field = pore_pressure.field(self.field, begin)
+        due = erosion.due(before, self.state, self.section)
+        if due:
+            x, y = self.monitor.take_out(due, disks)
+            self.state.eroded_shift_x += x
+            self.state.eroded_shift_y += y
         if changed == "done":
             self.snapshot(self.folder / "end.npz", contacts=True)
         elif changed:
@@ -321,6 +327,7 @@ class Experiment(driver.Course):
                     "state": asdict(self.state),
                     "series": self.series.mark(),
                     "wall_series": self.walls.file.mark(),
+                    "eroded": self.eroding and self.eroding.file.mark(),
                 },
             )
         self.frames.saved()
@@ -392,6 +399,7 @@ def run_key(section):
             "seed": section.seed,
             "roles": [[item.name, item.role] for item in (*section.walls, *section.layers, *section.interfaces)],
         }
+        | ({"erosion": [asdict(window) for window in section.erosion]} if section.erosion else {})
         | ({"shaking": [shaking.begin, shaking.digest]} if shaking else {})
     )
 
@@ -407,12 +415,14 @@ def resume(section, folder, progress=None):
     content = checkpoints.read(folder, run_key(section), ExperimentError)
     try:
         state, mark = State(**content["state"]), {"series": content["series"], "walls": content["wall_series"]}
+        mark["eroded"] = content.get("eroded")  # none where nothing is taken out
     except (KeyError, TypeError) as error:
         raise ExperimentError(
             f"{folder}: the checkpoint cannot be read ({error}); remove {folder}/checkpoint and run without --resume"
         ) from None
     for name, one in mark.items():
-        records.kept(Path(folder) / f"{name}.csv", one)  # all of them, before any is written to
+        if one is not None:
+            records.kept(Path(folder) / f"{name}.csv", one)  # all of them, before any is written to
     O.engines = attached.others()  # without that of the run that saved it
     built = slope.find(section, content["walls"], content["first_disk"], content["count"])
     try:
