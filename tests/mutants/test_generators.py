@@ -334,7 +334,10 @@ def test_a_copy_is_built_again_where_it_changed_also_back(tmp_path, monkeypatch)
         os.utime(checkout / name, (1e9, 1e9))
     monkeypatch.setattr(workplace, "ROOT", tmp_path / "checkout")
     monkeypatch.setattr(workplace, "PARTS", ("pkg",))
-    times = lambda: [(copy / "pkg" / "contact" / name).stat().st_mtime_ns for name in ("a.cpp", "b.cpp")]  # noqa: E731
+
+    def times():
+        return [(copy / "pkg" / "contact" / name).stat().st_mtime_ns for name in ("a.cpp", "b.cpp")]
+
     one, other = (mutant(name[0], f"pkg/contact/{name}", "x + y", "x - y", "") for name in ("a.cpp", "b.cpp"))
     workplace.mutated_sources(copy, [one, other])
     first = times()

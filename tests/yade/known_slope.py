@@ -38,7 +38,10 @@ BIN = 12.0  # m, of the deposit's profile: three mean diameters
 def series():
     """All columns: {name: array}."""
     t = np.arange(1, COUNT + 1) / 10
-    line = lambda *points: np.interp(t, *zip(*points))  # noqa: E731
+
+    def line(*points):
+        return np.interp(t, *zip(*points))
+
     settling = t <= 5 + 1e-9
     share = line((30, 0), (85, 1))
     index = np.arange(1, COUNT + 1) - 50  # of the rows since it settled, from 1
@@ -154,7 +157,10 @@ def write(folder, columns=None, start=begin, stop=end):
 def scaled(size):
     """The shipped section ``size`` times as large: walls, layers, disks, water, and times in proportion to √size."""
     time = math.sqrt(size)
-    stretch = lambda vertices: tuple((size * x, size * y) for x, y in vertices)  # noqa: E731
+
+    def stretch(vertices):
+        return tuple((size * x, size * y) for x, y in vertices)
+
     walls, layers = (
         tuple(dataclasses.replace(item, vertices=stretch(item.vertices)) for item in items)
         for items in (SHIPPED.walls, SHIPPED.layers)

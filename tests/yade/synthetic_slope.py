@@ -41,7 +41,9 @@ class Section:
     times = TIMES
 
     def __init__(self):
-        thickness = lambda s: 65 - 23 * s / LENGTH  # noqa: E731
+        def thickness(s):
+            return 65 - 23 * s / LENGTH
+
         ends = (0.0, LENGTH)
         self.layers = [
             (
@@ -203,7 +205,10 @@ def series(columns, rows=4000, seed=2):
     drop = np.clip((t - t2) / (t3 - t2), 0, 1)
     run = np.clip((t - t3) / (t5 - t3), 0, 1)
     active = (t > t3) & (t < t5)
-    noise = lambda scale: 1 + scale * active * rng.standard_normal(rows)  # noqa: E731
+
+    def noise(scale):
+        return 1 + scale * active * rng.standard_normal(rows)
+
     pore = 13.7e6 * h * (1 - drop)
     total = 1540e6 * (1 + 0.03 * drop) * (1 - 0.75 * run) * noise(0.12)
     effective = total - pore

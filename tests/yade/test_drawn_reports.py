@@ -60,11 +60,14 @@ def run(tmp_path, monkeypatch):
         for k in range(101):
             file.write({name: values[k] for name, values in rows.items()})
     (tmp_path / "snapshots").mkdir()
-    state = lambda time: vars(
-        synthetic.few(
-            [-200.0 + time, -100.0, 0.0], [100.0, 60.0, 30.0], [(0, 1, 1e6)], time_s=time, step=int(100 * time)
+
+    def state(time):
+        return vars(
+            synthetic.few(
+                [-200.0 + time, -100.0, 0.0], [100.0, 60.0, 30.0], [(0, 1, 1e6)], time_s=time, step=int(100 * time)
+            )
         )
-    )  # noqa: E731
+
     files = [
         records.write_snapshot(tmp_path / "snapshots" / f"{1000 * k:08d}.npz", **state(10.0 * k)) for k in range(11)
     ]

@@ -253,3 +253,15 @@ def test_no_two_classes_have_one_name():
         n.name for source, _ in sources().values() for n in ast.walk(ast.parse(source)) if isinstance(n, ast.ClassDef)
     ]
     assert sorted({name for name in found if found.count(name) > 1}) == []
+
+
+def test_no_lambda_has_a_name():
+    """A function that has one is defined, so that a traceback says which it is."""
+    named = [
+        f"{path.relative_to(ROOT)}:{node.lineno}"
+        for folder in ("py", "scripts", "tests", "doc", "cmake")
+        for path in sorted((ROOT / folder).rglob("*.py"))
+        for node in ast.walk(ast.parse(path.read_text()))
+        if isinstance(node, ast.Assign) and isinstance(node.value, ast.Lambda) and isinstance(node.targets[0], ast.Name)
+    ]
+    assert not named

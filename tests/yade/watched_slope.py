@@ -55,7 +55,10 @@ class Work:
         i, j = table[:, :2].astype(int).T - self.first
         wall, u = i < 0, []  # they stand still
         for x, y, vx, vy, w in (before, after):
-            fixed = lambda values: np.where(wall, 0, values[i])  # noqa: E731
+
+            def fixed(values):
+                return np.where(wall, 0, values[i])
+
             dx, dy = vx[j] - fixed(vx), vy[j] - fixed(vy)
             across = -dx * ny + dy * nx - w[j] * (self.r[j] + 0.5 * gap) - fixed(w) * (fixed(self.r) + 0.5 * gap)
             u.append(np.array([dx * nx + dy * ny, across, w[j] - fixed(w)]))

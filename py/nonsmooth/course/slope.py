@@ -10,12 +10,12 @@ Rules:
   mean speed is 0.2 m/s at t0, or comes to that without having been below 0.02 m/s since. The water does not rise, or no
   further; the slope is followed until it rests. What moved it, its weight or something else, says
   :mod:`yade.nonsmooth.studies.slope.verdict`;
-* t0: the dry rest ends, the water begins to rise;
+* t0: the dry rest ends, the water begins to rise, and the times of other triggers (:mod:`yade.nonsmooth.course.triggers`) count from here;
 * moving, t2: the mean speed reaches 0.2 m/s: the slope no longer just follows the water. With ``water.hold: motion``
   the table stays where it is from here on, and the solver's tolerance is ``tolerance_moving``, until the mean speed is
   down to a tenth of its maximum; from there it falls with the speed, down to ``tolerance``. A slope that comes to rest
   again without having got going does not count as moving: the table then goes on rising;
-* still: the slope does not move and its water table has stood at one height for 5 s: the tolerance is a quarter of
+* still: the slope does not move, its water table has stood at one height for 5 s and no other trigger acts: the tolerance is a quarter of
   ``tolerance``, since nothing but the solver's error is left to move a disk, and over a minute a looser solve breaks a
   bond or two that bear all they can;
 * rows and snapshots are of the first steps that end at, or less than half a step before, whole multiples of their
@@ -26,13 +26,16 @@ Rules:
 * end: the mean speed has been below ``rest_fraction`` of its maximum for ``rest_hold`` seconds, or the slope stands and
   nothing is left that could change it, or ``end.time`` has passed. It stands where for 5 s, and for ``rest_hold``
   seconds more, the mean speed has been no more than ``stages.settle.speed_rest``, no bond broke and no other disk got
-  wet, and the water table stays where it is or above all disks; a script that may do more to it says so.
+  wet, and the water table stays where it is or above all disks; a script that may do more to it says so. While a
+  trigger acts or is to come, neither counts as its end.
 """
 
 from __future__ import annotations
 
 import math
 from dataclasses import dataclass, replace
+
+from . import triggers
 
 __all__ = [
     "COLLAPSED",
@@ -47,6 +50,7 @@ __all__ = [
     "flowing",
     "foreseen",
     "gravity_share",
+    "loads_since",
     "keeps_frame",
     "next_row",
     "noted",
@@ -205,7 +209,8 @@ def _water(state, seen, section, scales):
     since = (seen.time if s.resting_since is None else s.resting_since) if resting else None
     height = seen.water if rises else 0.0
     s = _quieted(s, seen, section)
-    over = passed(seen, s.settled + stages.end.time) or (resting and passed(seen, stages.end.rest_hold, since))
+    rested = resting and passed(seen, stages.end.rest_hold, since) and triggers.over(section, loads_since(s), seen.time)
+    over = rested or passed(seen, s.settled + stages.end.time)
     return replace(
         s,
         stage="done" if over or (not seen.more and stands(s, seen, section, scales)) else "water",
@@ -226,12 +231,21 @@ def _quieted(s, seen, section):
 
 
 def _load_stays(s, seen, section):
-    """Whether no disk gets wet or dry by the table any more: it stays where it is, or above all of them."""
+    """Whether no trigger changes the load any more, and no disk gets wet or dry by the table: it stays where it is, or
+    above all of them.
+    """
+    if not triggers.over(section, loads_since(s), seen.time):
+        return False
     table = water_table(s, section)
     if table is None:
         return True
     coming = [seen.water, *(height for time, height in zip(*table) if time > seen.time)]
     return min(coming) == max(coming) or min(coming) > seen.top
+
+
+def loads_since(state):
+    """The time from which triggers count [s], see :func:`yade.nonsmooth.course.triggers.since`."""
+    return triggers.since(state.t0, state.failed_dry)
 
 
 def stands(state, seen, section, scales):
@@ -268,14 +282,16 @@ def flowing(speed, largest):
     return min(1.0, speed / (SLOW_FRACTION * largest))
 
 
-def care(state, seen, scales):
+def care(state, seen, section, scales):
     """How exactly contacts want to be computed in the water stage: (from 0 at rest to 1 on the move, whether the slope
     is still).
     """
     # reactions at rest depend on how the mass came to rest, so more care while it slows down
     return (
         0.0 if state.moving is None else flowing(seen.speed, state.speed_max),
-        state.moving is None and seen.time - state.table_since >= scales.still_seconds,
+        state.moving is None
+        and seen.time - state.table_since >= scales.still_seconds
+        and not triggers.acting(section, loads_since(state), seen.time),
     )
 
 
@@ -314,8 +330,10 @@ def foreseen(state, time, section):
     if state.stage == "done":
         return time
     settled = state.settled if state.settled is not None else max(SETTLING, time)
+    shaken = max([0.0, *(end for _, end in triggers.spans(section).values())])  # s since t0
     if state.moving is not None:
-        return max(min(state.moving + MOTION, settled + stages.end.time), time)
+        last = max(state.moving + MOTION, state.t0 + shaken)
+        return max(min(last, settled + stages.end.time), time)
     rate = section.water.rate if section.water else 0
-    rise = RISE / rate if rate and stages.water_hold == "motion" else stages.end.time
+    rise = RISE / rate if rate and stages.water_hold == "motion" else shaken or stages.end.time
     return max(min(settled + stages.dry + rise + MOTION, settled + stages.end.time), time)

@@ -103,34 +103,45 @@ def _named(path, function, *arguments):
 
 
 def _read_hdf5(path, name):
-    import h5py
-
-    try:
-        file = h5py.File(path, "r")
-    except OSError as error:
-        raise FieldError(f"{path}: is no HDF5 file that can be read ({error})") from None
-    with file:
-        held = {key: item for key, item in file.items() if isinstance(item, h5py.Dataset)}
-        on_grid = "x" in held or "y" in held
-        needed = ("times", name, *(("x", "y") if on_grid else ("nodes", "triangles")))
-        missing = [key for key in needed if key not in held]
-        if missing:
-            raise FieldError(f"has no dataset {', '.join(missing)}; it has {', '.join(held) or 'none'}")
-        try:
-            data = {key: held[key][()] for key in (*needed, *(("layer",) if "layer" in held else ()))}
-        except OSError as error:
-            raise FieldError(f"a dataset cannot be read ({error})") from None
+    data = _datasets(path, name)
+    for key, values in data.items():
+        kind = np.asarray(values).dtype
+        if kind.kind not in "iuf":
+            raise FieldError(f"{key} holds {kind}; give real numbers")
+    on_grid = "x" in data
     if on_grid:
         mesh, shape = grid(data["x"], data["y"]), (len(data["y"]), len(data["x"]))
         values = np.asarray(data[name])
         if values.shape[1:] != shape:
             raise FieldError(f"{name} of shape {values.shape}: give (times, y, x), here (…, {shape[0]}, {shape[1]})")
-        return MeshField(mesh, data["times"], values.reshape(len(values), -1))
+        return MeshField(mesh, data["times"], values.reshape(len(values), shape[0] * shape[1]))
     mesh, kept = _meshed(data["nodes"], data["triangles"], data.get("layer"))
     values = np.asarray(data[name])
     if values.ndim != 2 or values.shape[1] != len(data["nodes"]):
         raise FieldError(f"{name} of shape {values.shape}: give (times, nodes), here (…, {len(data['nodes'])})")
     return MeshField(mesh, data["times"], values[:, kept])
+
+
+def _datasets(path, name):
+    """The arrays that a file must have, and its layers where it tells them: {name: array}."""
+    import h5py
+
+    try:
+        file = h5py.File(path, "r")
+    except (OSError, RuntimeError) as error:
+        raise FieldError(f"{path}: is no HDF5 file that can be read ({' '.join(str(error).split())})") from None
+    try:
+        with file:
+            held = {key: item for key, item in file.items() if isinstance(item, h5py.Dataset)}
+            needed = ("times", name, *(("x", "y") if "x" in held or "y" in held else ("nodes", "triangles")))
+            missing = [key for key in needed if key not in held]
+            if missing:
+                raise FieldError(f"has no dataset {', '.join(missing)}; it has {', '.join(held) or 'none'}")
+            return {key: held[key][()] for key in (*needed, *(("layer",) if "layer" in held else ()))}
+    except (OSError, RuntimeError, KeyError, ValueError, TypeError) as error:  # whatever h5py meets in damaged bytes
+        if isinstance(error, WaterError):
+            raise
+        raise FieldError(f"a dataset cannot be read ({' '.join(str(error).split())})") from None
 
 
 def _read_mesh(path, name):

@@ -224,7 +224,10 @@ def _tensors(conductivity, mesh):
     """Conductivities (m, 2, 2) of the triangles."""
     count = len(mesh.triangles)
     layers = int(mesh.layer.max()) + 1
-    told = lambda k: f"conductivity of layer {k}" + (f" ({mesh.names[k]})" if k < len(mesh.names) else "")  # noqa: E731
+
+    def told(k):
+        return f"conductivity of layer {k}" + (f" ({mesh.names[k]})" if k < len(mesh.names) else "")
+
     if not isinstance(conductivity, (list, tuple)):
         every = np.ndim(conductivity) == 3
         return np.broadcast_to(_tensor("conductivity", conductivity, count if every else 1), (count, 2, 2))

@@ -269,7 +269,7 @@ MUTANTS = (
            "plain:test_section.py::test_water_that_flows_along_the_plane_lifts_and_drags"),
     mutant("section-old-sign", PY + "model/section/building.py", "[0.0 - float(g) for g in old]", "[float(g) for g in old]", "the old name's vector is taken for the gradient itself",
            "plain:test_section.py::test_the_old_name_of_the_pressure_gradient_is_read_with_one_warning"),
-    mutant("similar-gradient", PY + "model/section/similar.py", "[0.0 - x, y]\n    return data", "[x, y]\n    return data", "a vector of the pressure's gradient is not mirrored",
+    mutant("similar-gradient", PY + "model/section/similar.py", "[0.0 - x, y]\n    if \"shaking\"", "[x, y]\n    if \"shaking\"", "a vector of the pressure's gradient is not mirrored",
            "plain:test_roles.py::test_a_mirrored_section_is_checked_like_any_other"),
     mutant("hints-part", READER, "section_hints.instead_of(key, (*part[1:2], *keys))", "section_hints.instead_of(key, keys)", "a material file has the hints of a section",
            "plain:test_section_hints.py::test_a_material_file_has_the_hints_of_materials"),

@@ -297,7 +297,7 @@ MUTANTS = (
     mutant("alone-taken", SHOW, "b = now;", ";", "what is made of bodies that were shown alone is lost",
            "test_advance.py::test_bodies_that_are_asked_for_are_up_to_date_and_what_is_made_of_them_counts"),
     mutant("alone-exception", ADVANCE, "some && std::uncaught_exceptions() == exceptions", "some.has_value()", "an exception leaves bodies as they were at the last look",
-           "test_advance.py::test_an_exception_leaves_all_up_to_date"),
+           "test_advance.py::test_a_signal_that_raises_leaves_all_up_to_date"),
     mutant("alone-erased", "pkg/dem/NscdInteractionLoop.cpp", "list.size() != resident.order.size() - resident.bare + resident.potential.size()", "false",
            "the arrays go on with contacts that a script has taken out of the list", "test_advance.py::test_interactions_that_are_erased_meanwhile_end"),
     mutant("bare-made", SHOW, "if (look.makes) makeAll();", ";", "contacts that came while nobody looked are not seen later", "test_bare_contacts.py::test_what_nobody_asks_for_is_not_made"),

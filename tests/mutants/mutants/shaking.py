@@ -3,6 +3,8 @@ from mutant import mutant
 
 PY = "py/nonsmooth/"
 MOTION, READING, SYNTHETIC = (PY + f"model/ground_motion/{name}.py" for name in ("motion", "reading", "synthetic"))
+TRIGGERS, RULES, SURFACE = PY + "course/triggers.py", PY + "course/slope.py", PY + "measure/surface_slip.py"
+SECTION, EXPERIMENT = PY + "model/section/shaking.py", PY + "studies/slope/experiment.py"
 NEWMARK, FIGURE = PY + "measure/newmark.py", PY + "figures/shaking.py"
 GROUND, FILES, BLOCK, DRAWN = (f"plain:test_{name}.py" for name in ("ground_motion", "ground_motion_files", "newmark", "figures_shaking"))
 
@@ -54,4 +56,39 @@ MUTANTS = (
     mutant("shaking-peak", FIGURE, "np.argmax(np.abs(horizontal))", "np.argmax(horizontal)", "a peak to the left is not marked", f"{DRAWN}::test_the_motion_is_above_and_the_slips_below_it"),
     mutant("shaking-drift", FIGURE, "np.ravel(values[-1])[0]", "np.ravel(values[-1])[-1]", "the drift that is told is the vertical one", f"{DRAWN}::test_what_is_left_at_the_end_of_the_record_is_told"),
     mutant("shaking-end", FIGURE, "last = max([time[-1], *", "last = min([time[-1], *", "slips after the record are cut off", f"{DRAWN}::test_slips_that_go_on_after_the_record_are_shown_to_their_end"),
+    # ---- a slope that shakes
+    mutant("shaken-begun", TRIGGERS, "if time > start + begin", "if time > start", "a trigger acts from t0 on, whenever it begins", "plain:test_triggers.py"),
+    mutant("shaken-acting", TRIGGERS, "if time < start + spans(section)[name][1]", "", "a trigger never ends", "plain:test_triggers.py"),
+    mutant("shaken-over", TRIGGERS, "all(time >= start + end", "any(time >= start", "a run does not wait for the record", "plain:test_triggers.py"),
+    mutant("shaken-dry", TRIGGERS, "failed_dry is not None and failed_dry <= t0", "False", "a slope that failed by its weight is shaken as well", "plain:test_triggers.py"),
+    mutant("shaken-rest", RULES, "rested = resting and passed(seen, stages.end.rest_hold, since) and triggers.over(section, loads_since(s), seen.time)",
+           "rested = resting and passed(seen, stages.end.rest_hold, since)", "a slope that rests amid a record ends the run", "plain:test_triggers.py"),
+    mutant("shaken-still", RULES, "\n        and not triggers.acting(section, loads_since(state), seen.time)", "", "contacts are solved as of a still slope while it shakes", "plain:test_triggers.py"),
+    mutant("shaken-quiet", RULES, "if not triggers.over(section, loads_since(s), seen.time):", "if False:", "a slope that stands before the first shock ends the run", "plain:test_triggers.py"),
+    mutant("shaken-foreseen", RULES, "last = max(state.moving + MOTION, state.t0 + shaken)", "last = state.moving + MOTION", "the bar ends before the record", "plain:test_triggers.py"),
+    mutant("slip-across", SURFACE, "(begin.layer[a] == upper) & (begin.layer[b] == lower)", "(begin.layer[a] == lower) & (begin.layer[b] == upper)", "the lower layer slips over the upper one",
+           "plain:test_surface_slip.py"),
+    mutant("slip-way", SURFACE, "(x - begin.x) * one.way[0] + (y - begin.y) * one.way[1]", "(x - begin.x) * one.way[0] - (y - begin.y) * one.way[1]", "a way up counts down", "plain:test_surface_slip.py"),
+    mutant("slip-level", SURFACE, "if way @ section.downslope < 0:", "if False:", "a level surface slips to the right, wherever the slope falls", "plain:test_surface_slip.py"),
+    mutant("slip-below", SURFACE, "_mean(along, one.above) - _mean(along, one.below)", "_mean(along, one.above)", "what an interface lies on is taken to stay", "plain:test_surface_slip.py"),
+    mutant("shaken-order", SECTION, "motion = motion.corrected(raw[\"baseline\"])", "pass", "a baseline is not taken from the record", "plain:test_shaken_sections.py"),
+    mutant("shaken-place", SECTION, "folder = Path(document.path).parent if document.is_file else Path()", "folder = Path()", "a record is looked for in the working folder",
+           "plain:test_shaken_sections.py"),
+    mutant("shaken-mirrored", SECTION, '"reversed": not raw.get("reversed", False)', '"reversed": raw.get("reversed", False)', "a mirrored slope is shaken to the same side", "plain:test_shaken_sections.py"),
+    mutant("shaken-kept", SECTION, '"stretch": 1.0,\n        "reversed": False,', '"stretch": 1.0,\n        "reversed": True,', "a run keeps its record turned round", "plain:test_shaken_sections.py"),
+    mutant("shaken-late", SECTION, "stages.dry + shaking.end <= stages.end.time", "shaking.end <= stages.end.time", "a run may end before its record", "plain:test_shaken_sections.py"),
+    mutant("shaken-starting", SECTION, "motion if motion.times[0] == 0.0 else motion.starting(0.0)", "motion", "a record begins by its own clock", "plain:test_shaken_sections.py"),
+    mutant("shaken-content", SECTION, "known = {\"sha256\": shaking.record} if shaking.record else {}", "known = {}", "a run is taken for that of another record under the same name",
+           "plain:test_shaken_sections.py"),
+    mutant("shaken-size", PY + "model/section/similar.py", '    "shaking.stretch": TIME,\n', "", "a larger slope is shaken as fast", "plain:test_shaken_sections.py"),
+    mutant("based-null", PY + "model/section/based.py", "if value is None:", "if False:", "null takes nothing away", "plain:test_based_sections.py"),
+    mutant("based-deep", PY + "model/section/based.py", "made[key] = merged(made[key], value)", "made[key] = value", "a group of keys takes the place of the base's", "plain:test_based_sections.py"),
+    mutant("shaken-t0", EXPERIMENT, "self.slope.shaking.begin, self.slope.shaking.dead = start + self.section.shaking.begin, False", "self.slope.shaking.begin, self.slope.shaking.dead = start, False",
+           "the record begins at t0, whatever the section says", "test_shaken_slopes.py::test_each_row_has_the_slip_and_the_acceleration_of_its_time"),
+    mutant("shaken-resumed", EXPERIMENT, "| ({\"shaking\": [shaking.begin, shaking.digest]} if shaking else {})", "", "a run goes on under another record",
+           "test_shaken_slopes.py::test_another_record_does_not_resume_it"),
+    mutant("shaken-outside", PY + "studies/slope/monitoring.py", "0.0 if wet or shaken else", "0.0 if wet else", "the ground's work is taken for a script's",
+           "test_shaken_slopes.py::test_what_moves_while_it_shakes_has_failed_by_shaking"),
+    mutant("shaken-cause", PY + "studies/slope/verdict.py", "(triggers.acting if _wet(series, moved) else triggers.begun)", "triggers.acting", "what moves off dry after the record failed by its weight",
+           "plain:test_verdict.py"),
 )

@@ -179,7 +179,10 @@ def test_a_contact_bears_its_shear_and_its_torque_by_the_factor(normal):
     shear, torque, tension = limits(rock, normal)
     less = materials.divided(rock, 1.25)
     assert limits(less, normal) == (pytest.approx(shear / 1.25), pytest.approx(torque / 1.25), tension)
-    of = lambda *quantities: limits(materials.divided(rock, 2.0, quantities), normal)  # noqa: E731
+
+    def of(*quantities):
+        return limits(materials.divided(rock, 2.0, quantities), normal)
+
     # friction alone: the cohesion stays
     cohesion = shear - rock.friction * normal
     assert of("friction")[0] == pytest.approx(cohesion + 0.5 * rock.friction * normal)

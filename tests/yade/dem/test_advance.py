@@ -479,18 +479,44 @@ def test_what_is_written_elsewhere_is_taken_up_once_all_has_been_seen():
     assert O.bodies[-1].state.pos[0] > x + 0.9 * 3 * O.dt
 
 
+def shown_as_they_are(before):
+    """Whether bodies have moved since ``before``, and O.bodies has them where the engine does."""
+    table = np.frombuffer(engine().bodyTable()).reshape(-1, 8)
+    now = places()
+    return now != before and [now[int(row[0])][:2] for row in table] == [tuple(row[1:3]) for row in table]
+
+
 def test_an_exception_leaves_all_up_to_date():
+    """One that an engine's step raises, and one between two steps, where no engine has its turn."""
     heap()
     e = engine()
     e.advance(5)
     before = places()
     e.advance(30, view=False)
-    e.tolerance = -1  # refused before it begins its turn, so that it brings nothing up to date itself
+    e.tolerance = -1
     with pytest.raises(RuntimeError, match="tolerance"):
         e.advance(100, view=False)
-    table = np.frombuffer(e.bodyTable()).reshape(-1, 8)
-    now = places()
-    assert now != before and [now[int(row[0])][:2] for row in table] == [tuple(row[1:3]) for row in table]
+    assert shown_as_they_are(before)
+
+
+def test_a_signal_that_raises_leaves_all_up_to_date():
+    heap()
+    e = engine()
+    e.advance(5)
+    before = places()
+
+    def stop(number, frame):
+        raise TimeoutError("enough")
+
+    heard = signal.signal(signal.SIGALRM, stop)
+    try:
+        signal.setitimer(signal.ITIMER_REAL, 0.3)
+        with pytest.raises(TimeoutError, match="enough"):
+            e.advance(10**8, view=False)
+    finally:
+        signal.setitimer(signal.ITIMER_REAL, 0)
+        signal.signal(signal.SIGALRM, heard)
+    assert shown_as_they_are(before)
 
 
 def test_what_is_saved_without_a_view_is_true(tmp_path):

@@ -207,7 +207,9 @@ def test_bodies_that_the_arrays_cannot_keep_get_interactions(what):
 
 
 def test_materials_of_more_kinds_than_the_arrays_keep_have_interactions():
-    kinds = lambda k: material(0.3, tensileStrength=1e3 + k, layer=1)  # noqa: E731
+    def kinds(k):
+        return material(0.3, tensileStrength=1e3 + k, layer=1)
+
     same(lambda: lattice(kinds, stirred=2.0), 60)
     O.reset()
     lattice(kinds)

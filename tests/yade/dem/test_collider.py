@@ -91,9 +91,10 @@ def near_or_fast(ids, far):
 
 def disk_pairs(real=True):
     """Pairs of disks that have an interaction that is real, or potential."""
-    both = lambda i: isinstance(O.bodies[i.id1].shape, Sphere) and isinstance(
-        O.bodies[i.id2].shape, Sphere
-    )  # noqa: E731
+
+    def both(i):
+        return isinstance(O.bodies[i.id1].shape, Sphere) and isinstance(O.bodies[i.id2].shape, Sphere)
+
     return {(min(i.id1, i.id2), max(i.id1, i.id2)) for i in O.interactions.all() if i.isReal == real and both(i)}
 
 

@@ -41,7 +41,10 @@ def slid(state, tangent, seconds=1.0):
 
 def onset(friction, adhesion=0.0):
     """tan θ at which W sin θ = μ (W cos θ + F_a), with F_a in units of the block's weight."""
-    sine = lambda t: t / math.sqrt(1 + t * t)  # noqa: E731
+
+    def sine(t):
+        return t / math.sqrt(1 + t * t)
+
     low, high = 0.0, 50.0
     for _ in range(60):
         middle = 0.5 * (low + high)

@@ -192,7 +192,10 @@ def test_released_are_those_alone_that_were_wet():
     for k in (below, above):
         O.bodies[k].state.vel = 1.0 * DOWN
     run(600)
-    told = lambda: [tuple(map(bool, row)) for row in zip(*tables.water(w, below, 3))]  # noqa: E731
+
+    def told():
+        return [tuple(map(bool, row)) for row in zip(*tables.water(w, below, 3))]
+
     # wet, released, ever wet
     dry, released, wet = (False, False, False), (False, True, True), (True, False, True)
     assert told() == [released, dry, wet] and (w.releasedCount, w.wetCount) == (1, 1)
@@ -213,7 +216,10 @@ def test_what_was_wet_is_forgotten_with_the_ways():
     w.unitWeight = 1e-9  # a force too small to matter
     next(e for e in O.engines if isinstance(e, NewtonIntegrator)).gravity = (0, 0, 0)
     run(100)
-    told = lambda: tuple(bool(part[0]) for part in tables.water(w, disk, 1))  # noqa: E731
+
+    def told():
+        return tuple(bool(part[0]) for part in tables.water(w, disk, 1))
+
     # wet, released, ever wet
     assert w.wasWet(disk) and not w.isWet(disk) and told() == (False, False, True)
     w.forgetReleases()

@@ -110,7 +110,10 @@ def test_the_table_above_a_plane_is_one_such_field():
 def test_states_are_interpolated_in_time_and_held_outside():
     points = np.array([(0, 0), (1, 0), (0, 1)], float)
     water = field(points, [(0, 1, 2)], [0, 0, 6], [4, 8, 12], [4, 0, 0], times=[1, 3, 4])
-    at = lambda t: water.at(Vector3(0, 0, 0), t)[0]  # noqa: E731
+
+    def at(t):
+        return water.at(Vector3(0, 0, 0), t)[0]
+
     for time, p in ((0, 0), (1, 0), (1.5, 1), (2, 2), (3, 4), (3.5, 4), (4, 4), (9, 4)):
         assert at(time) == pytest.approx(p, abs=1e-14)
     assert water.at(Vector3(0, 0, 0), 2)[1] == Vector3(4 - 2, 9 - 2, 0)

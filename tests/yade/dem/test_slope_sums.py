@@ -85,11 +85,15 @@ def steps(tmp_path_factory):
     inertia = 0.5 * mass * t["r"] ** 2
     pieces = [i for ids in built.walls.values() for i in ids]
     places = np.array([tuple(O.bodies[i].state.pos)[:2] for i in pieces])
-    bodies = lambda: np.array([tables.bodies(solver)[name] for name in ("x", "y", "vx", "vy", "omega")])  # noqa: E731
+
+    def bodies():
+        return np.array([tables.bodies(solver)[name] for name in ("x", "y", "vx", "vy", "omega")])
+
     dump = tmp_path_factory.mktemp("steps") / "step.h5"
-    done = lambda before, after: work.of(  # noqa: E731
-        sorted_contacts(solver), before, solved(solver, after, first, dump), 5e-3
-    )
+
+    def done(before, after):
+        return work.of(sorted_contacts(solver), before, solved(solver, after, first, dump), 5e-3)
+
     experiment.advance(59)
     work, before = Work(first, t["r"]), bodies()
     experiment.advance()

@@ -146,7 +146,9 @@ def course(way, build, change=None, halves=2):
 
 @pytest.mark.parametrize("adaptive", [False, True])
 def test_all_that_python_can_read_is_the_same_in_every_way(adaptive):
-    build = lambda: busy(adaptive)
+    def build():
+        return busy(adaptive)
+
     begin = time.monotonic()
     unwatched = course("run", build)
     assert engine().views < most_views(begin)

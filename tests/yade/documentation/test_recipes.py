@@ -73,19 +73,3 @@ def test_a_gas_has_the_pressure_of_its_energy():
     assert measured == pytest.approx(expected, rel=0.03)
     kurtosis = numbers(text, "kurtosis")[0]
     assert kurtosis == pytest.approx(3, abs=0.5)  # 648 components: ± 0.2
-
-
-def test_a_shaken_slope_slides_as_newmarks_block(tmp_path, monkeypatch):
-    """doc/section_limits.rst: a block on a plane of the dip β slides while the ground pushes it by more than g tan(φ −
-    β), and then gains a (cos β + μ sin β) − g (μ cos β − sin β).
-    """
-    monkeypatch.chdir(tmp_path)
-    text = said("shaken_slope.py")
-    g, mu, push, beta = 9.81, 0.7, 3.0, math.atan2(26.3, 62)
-    driving, holding = push * (math.cos(beta) + mu * math.sin(beta)), g * (mu * math.cos(beta) - math.sin(beta))
-    begin = math.asin(holding / driving)
-    speed = (2 * driving * math.cos(begin) - holding * (math.pi - 2 * begin)) / (2 * math.pi)  # a period of 1 s
-    # the hill is bonded, and not a block: its crown is thin, and its toe leans on the valley
-    assert numbers(text, "shaken: largest mean speed [m/s]")[0] == pytest.approx(speed, rel=0.05)
-    for when in ("before", "after"):
-        assert numbers(text, f"{when}: largest mean speed [m/s]")[0] < 0.01 * speed

@@ -93,9 +93,10 @@ def test_colours_stand_on_the_picture_where_the_disks_are():
 
 def test_many_disks_are_few_artists():
     """One collection, not one patch a disk: 20,000 disks would take minutes."""
-    count = lambda n: len(
-        figures.snapshots([("t3", synthetic.few(-np.arange(n), np.arange(n)))], SECTION).findobj()
-    )  # noqa: E731
+
+    def count(n):
+        return len(figures.snapshots([("t3", synthetic.few(-np.arange(n), np.arange(n)))], SECTION).findobj())
+
     assert count(2000) < count(20) + 10  # a name of a wall more or less in sight
 
 
@@ -139,9 +140,10 @@ def test_ground_goes_on_as_its_last_wall_does_where_that_is_less_steep_than_45_d
     """A fall of 1 in 2 on both sides; one of 3 in 2 goes on level; nothing where walls reach the limits, or are
     buried.
     """
-    beyond = lambda points, *limits: [
-        p.tolist() for p in ground_of([("DP", points, "slip")]).beyond(*limits)
-    ]  # noqa: E731
+
+    def beyond(points, *limits):
+        return [p.tolist() for p in ground_of([("DP", points, "slip")]).beyond(*limits)]
+
     gentle, steep = [[0.0, 10.0], [10.0, 5.0]], [[0.0, 20.0], [10.0, 5.0]]
     assert beyond(gentle, -4.0, 14.0) == [[[-4, 12], [0, 10]], [[10, 5], [14, 3]]]
     assert beyond(steep, -4.0, 14.0) == [[[-4, 20], [0, 20]], [[10, 5], [14, 5]]]

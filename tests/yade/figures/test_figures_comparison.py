@@ -104,7 +104,9 @@ def test_force_distribution_is_a_density_over_the_mean_force():
 
 
 def test_modes_of_broken_bonds():
-    counts = lambda *parts: dict(zip(("tension", "shear", "torque", "mixed"), parts))  # noqa: E731
+    def counts(*parts):
+        return dict(zip(("tension", "shear", "torque", "mixed"), parts))
+
     hard = counts([0.1, 0.2], [0.04, 0.04], [0.0, 0.0], [0.01, 0.03])
     soft = counts([0.3, 0.3], [0.1, 0.2], [0.02, 0.02], [0.05, 0.05])
     (ax,) = figures.modes([("hard", HARD, hard), ("soft", SOFT, soft)]).axes
@@ -175,11 +177,9 @@ def test_cost_against_stiffness():
 
 
 def test_cost_at_equal_overlap():
-    point = lambda overlap, rate, stiffness=None: {
-        "overlap_mean_rel": overlap,
-        "rate": rate,
-        "stiffness_Pa": stiffness,
-    }  # noqa: E731
+    def point(overlap, rate, stiffness=None):
+        return {"overlap_mean_rel": overlap, "rate": rate, "stiffness_Pa": stiffness}
+
     soft = [point(1e-3, 3.0, 1e7), point(1e-4, 9.0, 1e8)]
     fig = figures.cost_and_overlap(
         [("at rest", point(1e-6, 5.0), soft, 16.0), ("on the move", point(1e-5, 4.0), soft, None)]
@@ -281,7 +281,10 @@ def test_convergence_of_soft_to_hard():
     assert [ax.get_title() for ax in fig.axes[:4]] == ["front", "speed", "overlap", "stress"] and not any(
         ax.get_visible() for ax in rest
     )
-    dots = lambda ax: [drawn.points(one).tolist() for one in ax.lines if one.get_marker() == "s"]  # noqa: E731
+
+    def dots(ax):
+        return [drawn.points(one).tolist() for one in ax.lines if one.get_marker() == "s"]
+
     assert (
         dots(front) == [[[1e7, 0.1], [1e8, 0.01]]]
         and dots(speed) == [[[1e7, 0.3], [1e8, 0.2]]]

@@ -120,7 +120,10 @@ def test_the_whole_slope_is_drawn_by_layers(slope, chains):
     assert list(told) == ["3 (top)", "2", "1"] and fills == [
         told[name] for name in ("1", "1", "2", "3 (top)", "3 (top)", "2")
     ]
-    light = lambda c: sum(int(c[k : k + 2], 16) for k in (1, 3, 5))  # noqa: E731
+
+    def light(c):
+        return sum(int(c[k : k + 2], 16) for k in (1, 3, 5))
+
     assert light(told["1"]) < light(told["2"]) < light(told["3 (top)"])
     assert drawn.texts(chains) == ["t = 0.000 s: 6 disks, 5 contacts, 2 of them in tension"]
     later = dataclasses.replace(slope, time_s=31.25)
@@ -234,7 +237,10 @@ def panels(fig):
 
 def test_each_force_is_its_column_in_meganewtons(courses):
     whole, close, water = panels(courses)
-    at = lambda a, b: a + b * straight()["time_s"]  # noqa: E731
+
+    def at(a, b):
+        return a + b * straight()["time_s"]
+
     for upper, lower in (whole, close):
         for ax, label, values in (
             (upper, TOTAL, at(1000, 2)),

@@ -280,7 +280,10 @@ def test_forces_of_a_sample():
     assert drawn.legend(fig) == {"compression": BLUE, "tension": RED} and fig.axes[0].get_title() == "ε₁ = 1 %"
     bars = drawn.bars(fig.axes[0])
     strong = np.quantile([4e6, 2e6, 1e6, 3e6], 0.98)
-    wide = lambda part: np.hypot(*(part[:, 0] - part[:, 3]).T)  # noqa: E731
+
+    def wide(part):
+        return np.hypot(*(part[:, 0] - part[:, 3]).T)
+
     assert wide(bars[BLUE]) == pytest.approx(1.2 * np.array([4e6, 1e6, 3e6]) / strong) and wide(
         bars[RED]
     ) == pytest.approx(1.2 * np.array([2e6]) / strong)

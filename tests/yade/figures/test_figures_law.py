@@ -202,7 +202,10 @@ def test_buoyancy_and_seepage_make_a_force_normal_to_the_slope(dip):
 
 def test_a_slope_to_the_left_is_the_mirrored_one():
     right, left = (figures.water_forces(dip) for dip in (30.0, -30.0))
-    mirrored = lambda points: np.asarray(points) * (-1, 1)  # noqa: E731
+
+    def mirrored(points):
+        return np.asarray(points) * (-1, 1)
+
     for a, b in zip(right.axes, left.axes):
         for one, other in zip(drawn.arrows(a), drawn.arrows(b), strict=True):
             assert other[0] == pytest.approx(mirrored(one[0]), **exact) and other[2:] == one[2:]

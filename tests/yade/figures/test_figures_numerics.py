@@ -68,7 +68,10 @@ def test_energies_are_told_apart_and_named():
         )
         == 8
     )
-    same = lambda *names: len({drawn.colour(drawn.line(above, name)) for name in names}) == 1  # noqa: E731
+
+    def same(*names):
+        return len({drawn.colour(drawn.line(above, name)) for name in names}) == 1
+
     assert same("lost by sliding", "lost by rolling", "lost in impacts") and not same("kinetic", "potential")
     assert [ax.get_title(loc="left") for ax in (above, below)] == [
         "Energy since the start",
@@ -272,9 +275,10 @@ def test_changes_are_over_the_mean_of_the_reference_and_of_the_same_seeds():
 
 def test_time_is_that_of_the_series():
     """A series that begins at 20 s, as one since the dry rest does."""
-    late = lambda series: {
-        name: values + 20 if name == "time_s" else values for name, values in series.items()
-    }  # noqa: E731
+
+    def late(series):
+        return {name: values + 20 if name == "time_s" else values for name, values in series.items()}
+
     for fig in (
         figures.energy(late(balance()), times={"t1": 60.0}),
         figures.solver(late(solved()), times={"t1": 60.0}),

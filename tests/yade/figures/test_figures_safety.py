@@ -60,7 +60,10 @@ def test_nothing_to_draw_is_refused():
 
 def test_the_failing_mass_is_coloured_by_its_way():
     x, y = (g.ravel() for g in np.meshgrid(np.arange(10) + 0.5, np.arange(4) + 0.5))
-    shot = lambda x, y: records.Snapshot(0.0, 0, x, y, np.full(40, 0.5), water_m=0.0)  # noqa: E731
+
+    def shot(x, y):
+        return records.Snapshot(0.0, 0, x, y, np.full(40, 0.5), water_m=0.0)
+
     upper = y > 2
     after = shot(x + np.where(upper, 2.5, 0.0), y)
     walls = [("base", np.array([[0.0, 0.0], [12.0, -0.1]]), "slip")]

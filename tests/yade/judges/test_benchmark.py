@@ -171,10 +171,11 @@ def test_states_are_made_once(measured):
     home, ((first, _), (again, _)) = measured
     assert first["states_made"] and not again["states_made"]
     assert len(list((home / "cache" / "yade-nonsmooth" / "benchmark").iterdir())) == 1
+
     # from the same bits: the same sweeps, on any number of threads
-    sweeps_of = lambda s: {
-        m["state"]: m["sweeps_mean"] for m in s["steps"] if m["threads"] == 1 and m["state"] != "soft"
-    }  # noqa: E731
+    def sweeps_of(s):
+        return {m["state"]: m["sweeps_mean"] for m in s["steps"] if m["threads"] == 1 and m["state"] != "soft"}
+
     assert sweeps_of(first) == sweeps_of(again)
     assert first["cold_sweeps_to_1e-4"] == again["cold_sweeps_to_1e-4"]
 

@@ -28,7 +28,10 @@ def test_a_short_soak(tmp_path):
     assert other.returncode == 0, other.stdout + other.stderr
     stepped = json.loads((tmp_path / "stepped.json").read_text())["rows"]
     assert len({row["bits"] for row in rows}) == len(rows)
-    forget = lambda row: {key: value for key, value in row.items() if key != "memory_MB"}  # noqa: E731
+
+    def forget(row):
+        return {key: value for key, value in row.items() if key != "memory_MB"}
+
     assert [forget(row) for row in stepped] == [forget(row) for row in rows]
     O.reset()
 

@@ -65,6 +65,9 @@ OTHERS = (
     "sweeps-by-thickness",
     "collapse-of-rounded-places",
     "priests-block",
+    "shaken-blocks",
+    "shaken-slope",
+    "shaken-frames",
     "paper",
 )
 

@@ -32,5 +32,7 @@ def test_what_stays_all_of_it_does_not_fail():
 
 
 def test_a_way_is_the_distance_of_two_places():
-    at = lambda x, y: SimpleNamespace(x=np.array(x, float), y=np.array(y, float))  # noqa: E731
+    def at(x, y):
+        return SimpleNamespace(x=np.array(x, float), y=np.array(y, float))
+
     assert failing_mass.ways(at([0, 1], [0, 1]), at([3, 1], [-4, 1])).tolist() == [5.0, 0.0]

@@ -27,7 +27,10 @@ def row(count, first=0.5, radius=0.5):
 
 def test_front_is_that_of_the_connected_mass():
     x, y, r = row(20)
-    more = lambda *new: tuple(np.append(a, b) for a, b in zip((x, y, r), zip(*new)))  # noqa: E731
+
+    def more(*new):
+        return tuple(np.append(a, b) for a, b in zip((x, y, r), zip(*new)))
+
     # a disk that has rolled ahead, a pair of them, and one in the air
     x1, y1, r1 = more((25.0, 0.5, 0.5), (30.0, 0.5, 0.5), (31.0, 0.5, 0.5), (10.0, 7.0, 0.5))
     mass = measures.connected(x1, y1, r1)

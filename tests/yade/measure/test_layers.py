@@ -47,7 +47,10 @@ def test_layers_that_are_drawn_out_mix_as_their_borders_grow():
     """Six bands of ten rows for three of twenty: five borders for two, 60 pairs each of 2 · 60 · 59."""
     start = square()
     bands = dataclasses.replace(start, layer=np.repeat([0, 1, 2, 0, 1, 2], SIDE * SIDE // 6))
-    share = lambda borders: borders * SIDE / (2 * SIDE * (SIDE - 1))  # noqa: E731
+
+    def share(borders):
+        return borders * SIDE / (2 * SIDE * (SIDE - 1))
+
     expected = (share(5) - share(2)) / (2 / 3 - share(2))
     assert layers.mixing(start, bands) == pytest.approx(expected, rel=1e-9) and expected < 0.05
 
@@ -116,7 +119,10 @@ def test_the_travel_angle_is_that_of_the_extreme_points():
     assert found["travel_angle_deg"] == pytest.approx(math.degrees(math.atan(161 / 501)), rel=1e-12)
     assert (found["centroid_drop_m"], found["centroid_run_m"]) == (190.0 - 45.5, 450.0 - 15.0)
     assert found["centroid_angle_deg"] == pytest.approx(math.degrees(math.atan(144.5 / 435)), rel=1e-12)
-    mirror = lambda s: dataclasses.replace(s, x=-s.x)  # noqa: E731
+
+    def mirror(s):
+        return dataclasses.replace(s, x=-s.x)
+
     assert travel.travel(mirror(start), mirror(end), [2500.0], -1.0) == pytest.approx(found, rel=1e-12)
 
 

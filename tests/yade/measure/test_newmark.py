@@ -29,7 +29,10 @@ def up_the_plane(motion):
 def noise(seed=1, n=400, size=4.0, uneven=False):
     dice = np.random.RandomState(seed)
     times = 0.01 * np.r_[0, np.cumsum(dice.uniform(0.5, 1.5, n - 1) if uneven else np.ones(n - 1))]
-    smooth = lambda: np.convolve(dice.normal(size=n + 9), np.ones(10) / 10**0.5, mode="valid")  # noqa: E731
+
+    def smooth():
+        return np.convolve(dice.normal(size=n + 9), np.ones(10) / 10**0.5, mode="valid")
+
     return motions.GroundMotion(times, size * smooth(), 0.4 * size * smooth())
 
 

@@ -285,10 +285,11 @@ def test_bands_are_found_with_their_angle_and_width():
     rng = np.random.default_rng(2)
     x, y = rng.uniform(0, 100, 6000), rng.uniform(0, 200, 6000)
     r = np.full(6000, 1.0)
+
     # a band of 12 m, six diameters, that rises at 60° to the right through (45, 90); and a weaker one of 10 m at −55°
-    offset = lambda deg, px, py: -math.sin(math.radians(deg)) * (x - px) + math.cos(math.radians(deg)) * (
-        y - py
-    )  # noqa: E731
+    def offset(deg, px, py):
+        return -math.sin(math.radians(deg)) * (x - px) + math.cos(math.radians(deg)) * (y - py)
+
     rotation = (
         0.3 * (np.abs(offset(60, 45, 90)) < 6)
         - 0.2 * (np.abs(offset(-55, 50, 100)) < 5)

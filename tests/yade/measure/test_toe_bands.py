@@ -37,9 +37,10 @@ def snapshots(rise=THRUST, back=BACK):
     up, off = rng.uniform(0, 300, 6000), rng.uniform(1, 64, 6000)
     down, normal = np.array(SHIPPED.downslope), np.array(SHIPPED.normal)
     x, y = (off[:, None] * normal - up[:, None] * down).T
-    away = lambda degrees, u, o: np.cos(np.radians(degrees)) * (off - o) - np.sin(np.radians(degrees)) * (
-        up - u
-    )  # noqa: E731
+
+    def away(degrees, u, o):
+        return np.cos(np.radians(degrees)) * (off - o) - np.sin(np.radians(degrees)) * (up - u)
+
     thrust, conjugate = np.abs(away(-rise, 60, 30)) < 6, np.abs(away(back, 150, 20)) < 8
     angle = 0.01 * rng.standard_normal(6000) - TURNED * thrust + TURNED_BACK * conjugate
     before = synthetic.few(x, y, r=np.ones(6000), time_s=10.0)

@@ -208,18 +208,16 @@ def test_of_two_slip_surfaces_one_above_the_other_each_bears_its_own_weight(tmp_
 
 
 def test_a_slip_wall_above_another_is_no_part_of_the_sum(tmp_path):
-    block = lambda name, y: {
-        "name": name,
-        "material": "rock",
-        "vertices": [[-20, y + 10], [-5, y + 2.5], [-5, y + 6.5], [-20, y + 14]],
-    }  # noqa: E731
-    wall = lambda name, y, **more: {
-        "name": name,
-        "material": "floor",
-        "role": "slip",
-        "vertices": [[-20, y + 10], [0, y]],
-        **more,
-    }  # noqa: E731
+    def block(name, y):
+        return {
+            "name": name,
+            "material": "rock",
+            "vertices": [[-20, y + 10], [-5, y + 2.5], [-5, y + 6.5], [-20, y + 14]],
+        }
+
+    def wall(name, y, **more):
+        return {"name": name, "material": "floor", "role": "slip", "vertices": [[-20, y + 10], [0, y]], **more}
+
     rock = {"friction": 0.8, "rolling_friction": 0.1, "density": 2500, "tensile_strength": 1e6}
     made = section.of(
         name="two floors",

@@ -152,12 +152,20 @@ def test_an_outline_has_no_idle_vertices():
     """Vertices within 2 mm of the line through their neighbours go, of a triangle too; a slit of 1 mm between two
     layers is closed, one of 10 mm stays.
     """
-    ring = lambda *points: geometry.outline([geometry.Polygon(points)], 1e-3)  # noqa: E731
-    vertices = lambda found: [[tuple(v) for v in p.exterior.coords[:-1]] for p in found.geoms]  # noqa: E731
+
+    def ring(*points):
+        return geometry.outline([geometry.Polygon(points)], 1e-3)
+
+    def vertices(found):
+        return [[tuple(v) for v in p.exterior.coords[:-1]] for p in found.geoms]
+
     assert vertices(ring((0, 0), (4, 0.001), (8, 0), (8, 6))) == [[(0, 0), (8, 0), (8, 6)]]
     assert vertices(ring((0, 0), (4, 0), (8, 0), (8, 6), (0, 6))) == [[(0, 0), (8, 0), (8, 6), (0, 6)]]
     assert vertices(ring((0, 0), (4, 0.01), (8, 0), (8, 6))) == [[(0, 0), (4, 0.01), (8, 0), (8, 6)]]
-    box = lambda x0, x1: geometry.Polygon([(x0, 0), (x1, 0), (x1, 2), (x0, 2)])  # noqa: E731
+
+    def box(x0, x1):
+        return geometry.Polygon([(x0, 0), (x1, 0), (x1, 2), (x0, 2)])
+
     assert vertices(geometry.outline([box(0, 3), box(3.001, 5)], 1e-3)) == [[(0, 0), (5, 0), (5, 2), (0, 2)]]
     assert len(vertices(geometry.outline([box(0, 3), box(3.01, 5)], 1e-3))) == 2
 

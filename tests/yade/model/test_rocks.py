@@ -318,7 +318,10 @@ def made_up(seeds=(1, 2, 3)):
     """A table of three rocks on the law's own lines, φ = 40° + 10° ln(μ_s/0.3) and c/σ_ext = μ_s, whose samples differ
     by ±5 % and ±1°.
     """
-    angle = lambda mu: 40 + 10 * math.log(mu / 0.3)  # noqa: E731
+
+    def angle(mu):
+        return 40 + 10 * math.log(mu / 0.3)
+
     found = [
         rock_table.row(
             e,
@@ -469,7 +472,9 @@ def test_a_sample_of_a_rock_that_was_asked_for_has_its_strengths(tmp_path):
 
 def test_the_command_writes_its_table_and_its_check(in_process, monkeypatch, tmp_path):
     def run(out, wanted, seeds, *_):
-        law = lambda seed, mu: (mu * math.exp(0.05 * seed), 40 + 10 * math.log(mu / 0.3) + 0.1 * seed)  # noqa: E731
+        def law(seed, mu):
+            return (mu * math.exp(0.05 * seed), 40 + 10 * math.log(mu / 0.3) + 0.1 * seed)
+
         return [
             rock_table.row(e, circles(e, seeds, lambda seed, mu=e.material.friction: law(seed, mu))) for e in wanted
         ]

@@ -145,14 +145,19 @@ def test_the_smallest_and_the_largest_disk_are_of_all_layers(section):
     """The shipped section has disks of 1 to 4 m; layers may have smaller and larger ones of their own, and where all
     have, the section's count no longer.
     """
-    of = lambda low, high: dataclasses.replace(section.disks, d_min=low, d_max=high)  # noqa: E731
-    own = lambda **sizes: dataclasses.replace(  # noqa: E731
-        section,
-        layers=tuple(
-            dataclasses.replace(layer, disks=of(*sizes[f"k{k}"]) if f"k{k}" in sizes else None)
-            for k, layer in enumerate(section.layers)
-        ),
-    )
+
+    def of(low, high):
+        return dataclasses.replace(section.disks, d_min=low, d_max=high)
+
+    def own(**sizes):
+        return dataclasses.replace(
+            section,
+            layers=tuple(
+                dataclasses.replace(layer, disks=of(*sizes[f"k{k}"]) if f"k{k}" in sizes else None)
+                for k, layer in enumerate(section.layers)
+            ),
+        )
+
     assert (section.smallest, section.largest, section.mixed) == (1.0, 4.0, False)
     for made, sizes in (
         (own(k0=(2.0, 7.0)), (1.0, 7.0)),

@@ -35,8 +35,8 @@ def said(tmp_path):
 @pytest.mark.parametrize(
     "place, key, words",
     [
-        ((), "earthquake", "NewtonIntegrator.gravity"),
-        ((), "seismic", "no earthquake"),
+        ((), "earthquake", "is the key `shaking`"),
+        ((), "seismic", "RECORD.AT2"),
         (("stages",), "kh", "atan(kh)"),
         ((), "ky", "a result and not an input"),
         (("water",), "phreatic", "straight line"),

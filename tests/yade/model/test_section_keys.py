@@ -4,6 +4,7 @@ schema's, so that a new one without a test fails.
 import copy
 import math
 from dataclasses import dataclass
+from pathlib import Path
 
 import numpy as np
 import pytest
@@ -15,7 +16,7 @@ from yade.nonsmooth import experiment, packing, records, section
 from yade.nonsmooth.measure import toe
 from yade.nonsmooth.model import rocks
 from yade.nonsmooth.studies.slope import results, slope
-from yade.wrapper import NewtonIntegrator, NonsmoothTimeStepper, PlanarGridCollider
+from yade.wrapper import GroundMotionEngine, NewtonIntegrator, NonsmoothTimeStepper, PlanarGridCollider
 
 SCHEMA = yaml.safe_load((section.FOLDER / "section.schema.yaml").read_text())
 
@@ -72,6 +73,8 @@ def data(changes=()):
         place = made
         for key in way[:-1]:
             place = place.setdefault(key, {}) if isinstance(place, dict) else place[key]
+        if isinstance(value, dict):
+            value = {key: inside for key, inside in value.items() if inside is not None}
         if value is None:
             place.pop(way[-1])
         else:
@@ -197,6 +200,11 @@ OWN = {"diameter": [0.3, 0.4], "distribution": "uniform_by_number", "packing_fra
 FAR = [{"name": "far", "material": "ss", "vertices": [[70.0, 30.0], [72.0, 30.0]], "apart": True}]
 SEAT = [{"name": "seat", "material": "ss", "vertices": [[70.0, 40.0], [80.0, 38.0]], "apart": True}]
 BASE = data()
+DATA = Path(__file__).resolve().parents[2] / "data"
+RECORD, UNEVEN = str(DATA / "four_values.at2"), str(DATA / "uneven.csv")  # 0, 2, -1, 0 at 0.1 s, without a unit
+SHA256 = "db172bc1f0296fdba58cd446629229348cd070a1d7046ea0b52a649ad5dcf31c"  # of these, in m/s²
+SHAKEN = {"file": RECORD, "unit": "m/s2"}
+MADE_UP = {"peak": 2.0, "duration": 2.0, "frequency": 2.0}
 
 OF_TABLE = {(*ROCK,): {"cohesion": 2e3, "friction_angle": 34.0, "density": 2500.0}}
 
@@ -542,6 +550,52 @@ WHERE = {
         ({("water", "release_distance"): 0.25}, lambda m: m.built.water.releaseDistance, 0.25),
         ({("water", "release_distance"): "critical_slip"}, lambda m: m.built.water.releaseDistance, 50.0),
     ],
+    **{
+        ("shaking", key): (
+            {("shaking",): SHAKEN | change},
+            lambda m, found=found: found(m.of(GroundMotionEngine)),
+            expected,
+        )
+        for key, change, found, expected in (
+            ("file", {"file": RECORD}, lambda e: list(e.horizontal), pytest.approx([0.0, 2.0, -1.0, 0.0])),
+            ("vertical_file", {"vertical_file": RECORD}, lambda e: list(e.vertical), pytest.approx([0, 2.0, -1.0, 0])),
+            ("unit", {"unit": "gal"}, lambda e: list(e.horizontal), pytest.approx([0, 2e-2, -1e-2, 0])),
+            ("uneven", {"file": UNEVEN, "unit": None, "uneven": True}, lambda e: list(e.times), [0.0, 0.5, 2.0]),
+            ("baseline", {"baseline": "constant"}, lambda e: sum(e.horizontal), pytest.approx(-1 / 3, abs=1e-9)),
+            ("peak", {"peak": 6.0}, lambda e: list(e.horizontal), pytest.approx([0, 6.0, -3.0, 0])),
+            ("factor", {"factor": 0.5}, lambda e: list(e.horizontal), pytest.approx([0, 1.0, -0.5, 0])),
+            ("stretch", {"stretch": 2.0}, lambda e: list(e.times), pytest.approx([0, 0.2, 0.4, 0.6])),
+            ("reversed", {"reversed": True}, lambda e: list(e.horizontal), pytest.approx([0, -2.0, 1.0, 0])),
+        )
+    },
+    ("shaking", "name"): (
+        {("shaking",): SHAKEN | {"name": "a record"}},
+        lambda m: m.section.shaking.motion.name,
+        "a record",
+    ),
+    ("shaking", "sha256"): ({("shaking",): SHAKEN | {"sha256": SHA256}}, lambda m: m.section.shaking.record, SHA256),
+    ("shaking", "begin"): (
+        {("shaking",): SHAKEN | {"begin": 0.2}},
+        lambda m: (m.built.shaking.begin - m.run.state.t0, m.built.shaking.dead),
+        (pytest.approx(0.2, abs=1e-9), False),
+        0.6,
+    ),
+    **{
+        ("shaking", "synthetic", key): (
+            {("shaking",): {"synthetic": MADE_UP | {key: value}}},
+            lambda m, found=found: found(m.section.shaking.motion),
+            expected,
+        )
+        for key, value, found, expected in (
+            ("peak", 1.5, lambda g: g.peak_acceleration(), pytest.approx(1.5)),
+            ("vertical_peak", 1.5, lambda g: g.peak_acceleration("vertical"), pytest.approx(1.5)),
+            ("duration", 3.0, lambda g: g.duration, pytest.approx(3.0)),
+            ("step", 0.02, lambda g: g.times[1], pytest.approx(0.02)),
+            ("frequency", 3.0, lambda g: "3 Hz" in g.source, True),
+            ("damping", 0.3, lambda g: "damping 0.3" in g.source, True),
+            ("seed", 5, lambda g: "seed 5" in g.source, True),
+        )
+    },
     ("stages", "settle", "ramp"): (
         {("stages", "settle", "ramp"): 0.4},
         lambda m: [row[2] for row in m.rows],
@@ -673,6 +727,8 @@ IDLE = {
     ("layers", "*", "name"),
     ("materials", "*", "envelope", "cohesion"),
     ("materials", "*", "envelope", "friction_deg"),
+    ("shaking", "name"),
+    ("shaking", "sha256"),
 }
 
 

@@ -139,8 +139,12 @@ def test_a_material_that_is_none_is_told_by_the_option_that_gave_it():
 
 
 def test_water_that_runs_up_the_slope_is_told():
-    notes = lambda values: [n for n in section_checks.notes(SHIPPED.with_values(values)) if "water" in n]  # noqa: E731
-    plane = lambda dip: {"water.plane": {"point": [0, 0], "dip": dip}}  # noqa: E731
+    def notes(values):
+        return [n for n in section_checks.notes(SHIPPED.with_values(values)) if "water" in n]
+
+    def plane(dip):
+        return {"water.plane": {"point": [0, 0], "dip": dip}}
+
     assert notes({}) == notes(plane(21)) == notes(plane(0)) == notes({"water.pressure_gradient": [-3000, -9000]}) == []
     (note,) = notes(plane(-21))
     assert note.endswith(

@@ -144,9 +144,16 @@ def stacked_series(**weakened):
 
 def test_times_are_of_the_surface_that_weakens_first():
     made = section.of(TWO)
-    rows = lambda **when: characteristic_times.chosen_rows(stacked_series(**when), STATE)  # noqa: E731
-    of = lambda **when: characteristic_times.of_run(rows(**when), made, STATE)  # noqa: E731
-    begins = lambda **when: characteristic_times.weakening_begins(rows(**when), made, STATE)  # noqa: E731
+
+    def rows(**when):
+        return characteristic_times.chosen_rows(stacked_series(**when), STATE)
+
+    def of(**when):
+        return characteristic_times.of_run(rows(**when), made, STATE)
+
+    def begins(**when):
+        return characteristic_times.weakening_begins(rows(**when), made, STATE)
+
     assert begins(lower=33.0, upper=40.0) == 33.0 and begins(lower=40.0, upper=33.0) == 33.0 and begins() is None
     # the lower one's mean over what counts as a second for a slope of this size has fallen by 90 % at 39 s, the upper
     # one's at 44 s
@@ -182,9 +189,10 @@ def test_each_surface_has_its_own_line():
     made = section.of(TWO)
     fig = figures.forces_against_time(forces_of(made), {}, walls=made)
     upper, lower = (ax for ax in fig.axes if ax.get_ylabel() == "force [MN/m]")
-    told = lambda ax: {
-        one.get_label(): drawn.points(one)[-1, 1] for one in ax.lines if not one.get_label().startswith("_")
-    }  # noqa: E731
+
+    def told(ax):
+        return {one.get_label(): drawn.points(one)[-1, 1] for one in ax.lines if not one.get_label().startswith("_")}
+
     assert told(upper) == pytest.approx(
         {
             "$N$  total on lower": 9,

@@ -294,11 +294,24 @@ def test_grids_in_files_that_are_wrong(tmp_path):
     for x, shape, message in (
         ([0, 1, 1], (1, 2, 3), r"g.h5: x\[1\] = 1 and x\[2\] = 1: lines of a grid must rise"),
         ([0, 1, 2], (1, 3, 2), r"g.h5: pressure of shape \(1, 3, 2\): give \(times, y, x\), here \(…, 2, 3\)"),
+        ([0, 1, 2], (0, 2, 3), r"g.h5: pressures of shape \(0, 6\): give \(1, 6\)"),
     ):
         with h5py.File(tmp_path / "g.h5", "w") as file:
             file["x"], file["y"], file["times"], file["pressure"] = x, [0, 1], [0], np.zeros(shape)
         with pytest.raises(FieldError, match=message):
             field_files.read(tmp_path / "g.h5")
+
+
+def test_damaged_bytes_and_numbers_that_are_not_real(tmp_path):
+    hdf5(tmp_path / "a.h5")
+    content = (tmp_path / "a.h5").read_bytes()
+    (tmp_path / "b.h5").write_bytes(content[:48] + content)  # all addresses are wrong
+    with pytest.raises(FieldError, match="b.h5: .*cannot be read") as error:
+        field_files.read(tmp_path / "b.h5")
+    assert "\n" not in str(error.value)
+    hdf5(tmp_path / "a.h5", pressure=np.ones((1, 4)) * 1j)
+    with pytest.raises(FieldError, match="a.h5: pressure holds complex128; give real numbers"):
+        field_files.read(tmp_path / "a.h5")
 
 
 def test_other_files_that_are_wrong(tmp_path, capfd):

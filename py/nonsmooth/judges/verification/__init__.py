@@ -29,6 +29,7 @@ MODULES = (
     "slope_convergence",
     "collapse",
     "safety",
+    "triggers",
     "avalanche",
     "paper",
     "water",

@@ -46,7 +46,10 @@ def obstacle(upstream, downstream, width, size):
     w[:, 0] = 0.5 * (upstream - y[:, 0]) ** 2
     w[:, -1] = 0.5 * np.maximum(downstream - y[:, -1], 0) ** 2
     w[0] = 0.5 * (upstream**2 - (upstream**2 - downstream**2) * x[0] / width)
-    line = lambda n: sparse.diags([1.0, -2.0, 1.0], [-1, 0, 1], (n, n))  # noqa: E731
+
+    def line(n):
+        return sparse.diags([1.0, -2.0, 1.0], [-1, 0, 1], (n, n))
+
     laplace = sparse.kronsum(line(nx - 1), line(ny - 1), format="csr") / size**2
     rim = np.zeros((ny - 1, nx - 1))
     rim[:, 0] += w[1:-1, 0]

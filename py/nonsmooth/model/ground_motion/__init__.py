@@ -9,5 +9,6 @@ displacement at the end is told (`GroundMotion.drift`, `GroundMotion.describe`).
 
 from .motion import BASELINES, Drift, GroundMotion, GroundMotionError
 from .reading import UNITS, read
+from .writing import write_csv
 
-__all__ = ["BASELINES", "Drift", "GroundMotion", "GroundMotionError", "UNITS", "read"]
+__all__ = ["BASELINES", "Drift", "GroundMotion", "GroundMotionError", "UNITS", "read", "write_csv"]

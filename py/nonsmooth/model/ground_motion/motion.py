@@ -272,6 +272,14 @@ class GroundMotion:
         time = checks.number("time", time, GroundMotionError, "give the seconds at which the motion begins")
         return self._changed(f"begins at {time:g} s", times=self.times - self.times[0] + time)
 
+    def stretched(self, factor) -> GroundMotion:
+        """The same accelerations, ``factor`` times as slow, a number above 0: all times from the first one on are
+        multiplied by it. A similar slope, so many times as large as the square of ``factor``, does the same (Froude).
+        """
+        factor = checks.number("factor", factor, GroundMotionError, "give a number above 0", above=0)
+        first = self.times[0]
+        return self._changed(f"{factor:.6g} times as slow", times=first + factor * (self.times - first))
+
     def resampled(self, step) -> GroundMotion:
         """The values of the straight pieces at equal steps [s] from the first time on, and at the last time. Peaks
         between the new times are lost, and the integral changes: compare :attr:`drift`. Raises GroundMotionError for a

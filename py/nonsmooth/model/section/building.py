@@ -7,7 +7,13 @@ import dataclasses
 from types import MappingProxyType
 
 from .. import geometry, rocks, roles
-from . import checks as section_checks, defaults as section_defaults, units as section_units, values as section_values
+from . import (
+    checks as section_checks,
+    defaults as section_defaults,
+    shaking as section_shaking,
+    units as section_units,
+    values as section_values,
+)
 from .section import Section
 from .parts import (
     Disks,
@@ -31,6 +37,7 @@ def build(document, source: str) -> Section:
     """Section from a document that meets the schema; the checks that a schema cannot make."""
     section_checks.check_extent(document)
     _take_old_names(document)
+    section_shaking.complete(document)
     section_units.check(document)
     given = copy.deepcopy(document.data)
     raw = document.data = section_defaults.filled(document.data)
@@ -75,8 +82,10 @@ def build(document, source: str) -> Section:
         interfaces=interfaces,
         pressed=size.get("pressed", False),
         unusual=tuple(raw.get("unusual", ())),
+        shaking=section_shaking.made(document),
     )
     section_checks.check(section, document)
+    section_shaking.check_end(section, document)
     if "water" in raw:
         section = dataclasses.replace(section, water=_water(raw["water"], section, document))
     section = dataclasses.replace(section, walls=roles.assigned(section))

@@ -9,6 +9,7 @@ import dataclasses
 import yaml
 
 from ...system.whole_files import write_atomically
+from . import shaking as section_shaking
 
 __all__ = ["FILE", "material", "plain", "write"]
 
@@ -91,6 +92,8 @@ def plain(section) -> dict:
             "table": table,
             "release_distance": water.release_distance,
         }
+    if section.shaking is not None:
+        data["shaking"] = section_shaking.plain(section.shaking)
     return data
 
 
@@ -101,10 +104,10 @@ def material(m) -> dict:
 
 
 def write(section, path):
-    """Writes the section file, whole or not at all."""
+    """Writes the section file, whole or not at all, and before it the record of an earthquake that it names."""
+    data = plain(section)
+    if section.shaking is not None:
+        data["shaking"] = section_shaking.kept(section.shaking, path.parent)
     write_atomically(
-        path,
-        yaml.safe_dump(
-            plain(section), sort_keys=False, allow_unicode=True, default_flow_style=None, width=150
-        ).encode(),
+        path, yaml.safe_dump(data, sort_keys=False, allow_unicode=True, default_flow_style=None, width=150).encode()
     )

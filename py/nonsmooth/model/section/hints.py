@@ -22,8 +22,8 @@ class Hint(NamedTuple):
 HINTS = (
     Hint(
         "earthquakes",
-        "earthquake earthquakes seismic seismicity seismic_coefficient kh kv k_h k_v pga accelerogram acceleration horizontal_acceleration ground_motion shaking",
-        "a section has no earthquake: its gravity is constant and points down. Let a script set NewtonIntegrator.gravity while the slope runs (doc/examples/shaken_slope.py); "
+        "earthquake earthquakes seismic seismicity seismic_coefficient kh kv k_h k_v pga accelerogram acceleration horizontal_acceleration ground_motion",
+        "an earthquake is the key `shaking`: {file: RECORD.AT2, begin: 1.0}, or {synthetic: {peak: 3.0, duration: 20, frequency: 1.5}}, accelerations in m/s²; "
         "for a constant coefficient kh turn a dry section by atan(kh) and multiply `gravity` by sqrt(1 + kh²)",
     ),
     Hint(

@@ -19,7 +19,7 @@ import jsonschema
 import yaml
 
 from ...errors import OldNameWarning, UserError
-from . import hints as section_hints, units as section_units
+from . import based, hints as section_hints, units as section_units
 
 __all__ = ["Document", "SectionError", "read", "schema", "take", "values"]
 
@@ -89,6 +89,11 @@ class Document:
 
     def __init__(self, path: str, data, root=None):
         self.path, self.data, self._root = path, data, root
+
+    @property
+    def is_file(self) -> bool:
+        """Whether the data are those of a file, ``path``; others are of Python."""
+        return self._root is not None
 
     def line(self, keys) -> int:
         """Line (from 1) of the key path `keys`, or of the deepest part of it that exists."""
@@ -332,7 +337,10 @@ def _whole(schema, value):
 def read(path, schema_path, part=()) -> Document:
     """Read the YAML file `path` and check it against the schema, or its `part` (keys); SectionError if it fails."""
     data, root = _yaml(Path(path))
-    return _checked(Document(str(path), data, root), schema_path, part)
+    document = Document(str(path), data, root)
+    if not part:
+        document.data = based.on_base(document, lambda path: _yaml(path)[0])
+    return _checked(document, schema_path, part)
 
 
 def take(data, source, schema_path, part=()) -> Document:

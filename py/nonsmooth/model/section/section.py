@@ -17,6 +17,7 @@ from .. import free_surface, geometry, roles, stacks
 from . import data as section_data, values as section_values
 from .parts import Disks, Envelope, Interface, Layer, Material, Numerics, Stages, Wall, Water, normal_of
 from .reader import SectionError
+from .shaking import Shaking
 
 __all__ = ["Section"]
 
@@ -49,6 +50,7 @@ class Section:
     interfaces: tuple[Interface, ...] = ()
     pressed: bool = False
     unusual: tuple[str, ...] = ()
+    shaking: Shaking | None = None
     scale: float = 1.0
     like: tuple[Section, float] | None = dataclasses.field(default=None, compare=False, repr=False)
     given: section_values.Given | None = dataclasses.field(default=None, compare=False, repr=False)

@@ -12,7 +12,7 @@ import dataclasses
 import math
 
 from ...system import checks
-from . import building as section_building, data as section_data, values as section_values
+from . import building as section_building, data as section_data, shaking as section_shaking, values as section_values
 from .reader import SectionError
 from .section import Section
 from .reader import Document
@@ -39,6 +39,8 @@ POWERS = {
     "water.table.rate": SPEED,
     "water.table.points": (TIME, LENGTH),
     "water.release_distance": LENGTH,
+    "shaking.begin": TIME,
+    "shaking.stretch": TIME,
     "stages.settle.ramp": TIME,
     "stages.settle.time_max": TIME,
     "stages.settle.speed_rest": SPEED,
@@ -84,6 +86,8 @@ def _mirrored(data):
     if isinstance(water.get("pressure_gradient"), list):
         x, y = water["pressure_gradient"]
         water["pressure_gradient"] = [0.0 - x, y]
+    if "shaking" in data:
+        data["shaking"] = section_shaking.mirrored(data["shaking"])
     return data
 
 

@@ -36,6 +36,7 @@ _KEY = {
             "materials",
             "disks",
             "water",
+            "shaking",
             "stages",
             "numerics",
             "unusual",

@@ -2,7 +2,7 @@
 
 from ...records.columns import BONDS, STEP, TIME, Column, count, declared
 
-__all__ = ["COLUMNS", "WALL_COLUMNS"]
+__all__ = ["COLUMNS", "OF_SHAKING", "PERMANENT", "WALL_COLUMNS"]
 
 #: Of ``series.csv``: {name: Column}. Where slip surfaces lie one above another, each has some of them for itself, see
 #: :data:`.records.columns.OWN`.
@@ -61,7 +61,11 @@ COLUMNS = declared(
     Column("overlap_mean_rel", "1", "mean overlap of the contacts, in the same units"),
     Column("energy_kinetic_J", "J/m", "kinetic energy"),
     Column("energy_potential_J", "J/m", "potential energy of gravity"),
-    Column("energy_water_J", "J/m", "work done by the pore water"),
+    Column(
+        "energy_water_J",
+        "J/m",
+        "work done by the pore water; where the ground shakes, in its frame, also by the inertia of the disks",
+    ),
     Column("energy_walls_J", "J/m", "work done by walls whose motion is given"),
     Column("energy_sliding_J", "J/m", "energy dissipated by sliding"),
     Column("energy_rolling_J", "J/m", "energy dissipated by rolling"),
@@ -73,6 +77,21 @@ COLUMNS = declared(
     ),
 )
 
+#: Of a section that shakes, besides: {name: Column}.
+OF_SHAKING = declared(
+    Column(
+        "ground_acceleration_x_m_per_s2",
+        "m/s²",
+        "acceleration of the ground to the right, mean over the row's last step",
+    ),
+    Column("ground_acceleration_y_m_per_s2", "m/s²", "the same upwards"),
+)
+#: And of each slip surface, ``displacement_m:joint``.
+PERMANENT = Column(
+    "displacement_m",
+    "m",
+    "displacement along the slip surface since t0: mean way down it of the disks that touched it then",
+)
 
 #: Of ``walls.csv``, a row for each wall and time: {name: Column}. Empty where a wall has no such number.
 WALL_COLUMNS = declared(

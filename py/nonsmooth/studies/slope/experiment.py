@@ -79,6 +79,8 @@ class Experiment(driver.Course):
             self.frames = frames.Frames(self.folder, self.section)
         else:
             results.forget_later(self.folder, state.stage, O.iter)
+            if state.t0 is not None:
+                self.monitor.note_begin(self.folder / results.BEGIN)
             rows = records.read_series(self.folder / "series.csv")
             self.frames = frames.Frames(self.folder, self.section, rows, asdict(state))
         super().__init__(self.series, self.walls.file)
@@ -222,7 +224,7 @@ class Experiment(driver.Course):
         elif changed == "water":
             self._loaded()
         elif before.stage == "water":
-            self._care(*course.care(self.state, seen, self.scales))
+            self._care(*course.care(self.state, seen, self.section, self.scales))
         table = course.water_table(self.state, self.section)
         if table != course.water_table(before, self.section):
             self.slope.water.times, self.slope.water.heights = table
@@ -272,7 +274,11 @@ class Experiment(driver.Course):
         """It is t0."""
         disks = tables.bodies(self.slope.solver)
         self.state.front0 = self.monitor.front(disks)
-        self.snapshot(self.folder / "t0.npz", contacts=True)
+        self.snapshot(self.folder / results.BEGIN, contacts=True)
+        self.monitor.note_begin(self.folder / results.BEGIN)
+        start = course.loads_since(self.state)
+        if self.slope.shaking is not None and start is not None:
+            self.slope.shaking.begin, self.slope.shaking.dead = start + self.section.shaking.begin, False
 
     def _care(self, flowing, still):
         """How exactly contacts are computed, see :func:`.course.slope.care`."""
@@ -363,6 +369,7 @@ def _check(section, folder):
 
 def run_key(section):
     """What must agree between a checkpoint and the section it is resumed with."""
+    shaking = section.shaking
     return keys.key_of(
         {
             "key": section.key("settled"),
@@ -371,6 +378,7 @@ def run_key(section):
             "seed": section.seed,
             "roles": [[item.name, item.role] for item in (*section.walls, *section.layers, *section.interfaces)],
         }
+        | ({"shaking": [shaking.begin, shaking.digest]} if shaking else {})
     )
 
 

@@ -9,12 +9,14 @@ import numpy as np
 from yade import O
 
 from ... import course, packing, records
+from ...course import triggers
+from ...measure import surface_slip
 from ...measure.fronts import front_of
 from ...model import scales
 from ...records.columns import without
 from ...world import tables
 from . import slope
-from .columns import COLUMNS
+from .columns import COLUMNS, OF_SHAKING, PERMANENT
 from .error import ExperimentError
 from .wall_series import WallSeries
 
@@ -59,6 +61,10 @@ class SlopeMonitor:
         self.columns = (COLUMNS if self.hard else without(COLUMNS, OF_SOLVER)) | {
             name: COLUMNS[records.stem(name)]._replace(name=name) for name in own
         }
+        self._begin = self._surfaces = None  # the Snapshot of t0, and its slip surfaces
+        if self.section.shaking is not None:
+            names = [records.column(PERMANENT.name, name) for name, _ in self.section.slip_surfaces]
+            self.columns = self.columns | OF_SHAKING | {name: PERMANENT._replace(name=name) for name in names}
 
     def open_walls(self, path, mark=None):
         """Opens the file of walls, and returns its WallSeries; ``mark``: of a checkpoint."""
@@ -67,6 +73,12 @@ class SlopeMonitor:
         period = 1 if self.hard else max(1, int(row / O.dt / FORCE_SAMPLES))
         self.walls = WallSeries(self.slope, self.layers, path, period, mark)
         return self.walls
+
+    def note_begin(self, path):
+        """Reads the snapshot of t0, from which on ways are counted."""
+        if self.section.shaking is not None:
+            self._begin = records.read_snapshot(path)
+            self._surfaces = surface_slip.surfaces(self.section, self._begin)
 
     # ---- what the course decides by ----------------------------------------------------------
     def seen(self, state, disks, more):
@@ -98,13 +110,14 @@ class SlopeMonitor:
     def _outside(self, state, e):
         """Energy that came from elsewhere than weight and water [J/m]: of walls that move, of what a script did between
         steps since the slope settled (until then gravity, which grows, is counted there too) and, as long as all is
-        dry, of forces that others put on disks. None with soft contacts, which nobody counts. It is 0 to the last bit
+        dry and nothing shakes, of forces that others put on disks. None with soft contacts, which nobody counts. It is 0 to the last bit
         where nobody has done anything."""
         if not self.hard:
             return None
         wet = state.wet or (self.slope.water is not None and self.slope.water.wetCount > 0)
+        shaken = triggers.begun(self.section, course.loads_since(state), O.time)
         brought = 0.0 if state.stage == "settle" else abs(e.broughtEnergy)
-        return brought + abs(e.wallWork) + (0.0 if wet else abs(e.externalWork))
+        return brought + abs(e.wallWork) + (0.0 if wet or shaken else abs(e.externalWork))
 
     def mean_speed(self, t):
         """Of the disks of the mass [m/s]; ``t``: the disks' table."""
@@ -192,6 +205,8 @@ class SlopeMonitor:
         for name, force in of_surfaces.items():
             share = lift * self._share(disks, self._borne_by[name]) if water else 0.0
             row |= self._of_surface(name, force, share)
+        if section.shaking is not None:
+            row |= self._of_shaking(disks)
         return row | self._of_solver(state, e) if self.hard else row
 
     def _of_surface(self, name, force, u):
@@ -201,6 +216,16 @@ class SlopeMonitor:
         slip = self.walls.slip(name)
         values = (force[0] + u, force[0], u, force[1], force[2], slip.mean, slip.weakened)
         return {records.column(column, name): value for column, value in zip(records.OWN, values, strict=True)}
+
+    def _of_shaking(self, t):
+        """The columns of a slope that is shaken."""
+        x, y, _ = self.slope.shaking.acceleration
+        values = {"ground_acceleration_x_m_per_s2": x, "ground_acceleration_y_m_per_s2": y}
+        if self._surfaces is None:  # before t0
+            slipped = dict.fromkeys((name for name, _ in self.section.slip_surfaces), 0.0)
+        else:
+            slipped = surface_slip.displacements(self._surfaces, self._begin, t["x"], t["y"])
+        return values | {records.column(PERMANENT.name, name): value for name, value in slipped.items()}
 
     def _share(self, t, part):
         """The part of the water's force that acts on what slip surfaces bear: these disks, or this part of each (None:

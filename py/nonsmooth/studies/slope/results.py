@@ -26,9 +26,10 @@ from ...measure.characteristic_times import (
 from ...measure.ground import ground_of
 from ...measure.surface import deposit_profile, on_ground
 from ...model import scales
-from ...model.section import data as section_data
+from ...model.section import data as section_data, shaking as section_shaking
 from ...system.whole_files import remove, remove_parts, whole, write_json
 from . import frames, verdict
+from .columns import PERMANENT
 
 __all__ = [
     "check_folder",
@@ -50,7 +51,7 @@ HEAD = b"step,time_s,"  # begins the series of every run
 SUMMARY, BREAKS, BEGIN, END = "summary.json", "breaks.csv", "t0.npz", "end.npz"
 SNAPSHOTS, PARAVIEW = frames.FOLDER, "vtk"
 #: Names of the figures in the order in which they are drawn; of their files with ".png".
-PICTURES = tuple("force_chains forces snapshots weakening toe deposit energy solver".split())
+PICTURES = tuple("force_chains forces snapshots weakening toe deposit shaking energy solver".split())
 FIGURES = (*(f"{name}.png" for name in PICTURES), "avalanche.mp4")
 
 
@@ -62,7 +63,7 @@ def forget(folder):
     """
     folder = Path(folder)
     remove(
-        [folder / name for name in (SUMMARY, BREAKS, BEGIN, END, *FIGURES)]
+        [folder / name for name in (SUMMARY, BREAKS, BEGIN, END, section_shaking.FILE, *FIGURES)]
         + _written(folder / SNAPSHOTS, r"\d{8,}\.npz")
         + _written(folder / PARAVIEW, r"(disks-\w+|contacts-\w+|walls|breaks)\.vtu|avalanche\.pvd"),
         EARLIER,
@@ -90,7 +91,7 @@ def foreign(folder):
         pass
     if (folder / "key").exists():  # kept_runs has begun one
         return None
-    names = (SERIES, WALLS, SECTION, SUMMARY, BREAKS, BEGIN, END, *FIGURES, "checkpoint")
+    names = (SERIES, WALLS, SECTION, section_shaking.FILE, SUMMARY, BREAKS, BEGIN, END, *FIGURES, "checkpoint")
     found = [folder / name for name in names if (folder / name).exists()]
     found += _written(folder / SNAPSHOTS, r"\d{8,}\.npz") + _written(folder / PARAVIEW, r".*\.(vtu|pvd)")
     return found[0].relative_to(folder).as_posix() if found else None
@@ -135,6 +136,11 @@ NUMBERS = (
     "deposit_thickness_ground_m mixing overturned_m bulking_factor "
     "energy_dissipated_J_per_m energy_correction_rel energy_error_rel"
 ).split()
+#: Numbers of the motion in the summary of a section that shakes.
+SHAKING = (
+    "begin_s duration_s peak_acceleration_m_per_s2 peak_velocity_m_per_s arias_intensity_m_per_s drift_velocity_m_per_s "
+    "drift_displacement_m"
+).split()
 PASSIVE = (
     "water_passive_m water_at_failure_over_passive passive_resistance_dry_N_per_m passive_force_N_per_m "
     "fb_force_at_failure_over_passive"
@@ -163,6 +169,9 @@ def numbers_of(section) -> list[str]:
         for bands in TOE_BANDS:
             found += [f"{bands}.{one}.{name}" for one in ("towards_foot", "conjugate") for name in BAND]
             found += [f"{bands}.both_conjugate"] + [f"{bands}.rankine_deg"] * bool(section.envelope)
+    if section.shaking is not None:
+        found += [f"shaking.{name}" for name in SHAKING]
+        found += [f"displacements_m.{name}" for name, _ in section.slip_surfaces]
     found += BED if any(layer.role == "bed" for layer in section.layers) else ()
     return found + list(PASSIVE if _has_passive(section) else ())
 
@@ -311,6 +320,34 @@ def _of_bed(section, start, end):
     )
 
 
+def _of_shaking(section, series):
+    """Of a section that shakes: numbers of the motion, and the displacement along each slip surface [m] so far."""
+    if section.shaking is None:
+        return {}
+    motion = section.shaking.motion
+    return {
+        "shaking": {"record": f"{motion.name} ({motion.source})"}
+        | dict(
+            zip(
+                SHAKING,
+                (
+                    section.shaking.begin,
+                    motion.duration,
+                    motion.peak_acceleration(),
+                    motion.peak_velocity(),
+                    motion.arias_intensity(),
+                    motion.drift.velocity[0],
+                    motion.drift.displacement[0],
+                ),
+                strict=True,
+            )
+        ),
+        "displacements_m": {
+            name: float(series[records.column(PERMANENT.name, name)][-1]) for name, _ in section.slip_surfaces
+        },
+    }
+
+
 def summarise(folder, section, state, threads=None) -> dict:
     """Reads the records in ``folder``, writes and returns ``summary.json``. Values that the run has not reached are
     null.
@@ -422,7 +459,7 @@ def summarise(folder, section, state, threads=None) -> dict:
     summary["force_stages"] = _force_stages(series, section, times, second, leans)
     for name, between in TOE_BANDS.items():
         summary[name] = _toe_bands(folder, every, section, times, *between)
-    summary |= _of_bed(section, start, end)
+    summary |= _of_bed(section, start, end) | _of_shaking(section, every)
     summary |= _passive(
         section, state["packing_fraction"], summary["water_at_failure_m"], summary["fb_force_at_failure_N_per_m"]
     )

@@ -8,12 +8,16 @@ from concurrent.futures import ThreadPoolExecutor
 from functools import cached_property
 from pathlib import Path
 
+import numpy as np
+
 from ... import figures, records
 from ...figures import paraview, video
+from ...measure import newmark
 from ...measure.characteristic_times import chosen_rows
-from ...model import scales
+from ...model import roles, scales
 from ...system import checks
 from . import frames, results, verdict
+from .columns import PERMANENT
 
 __all__ = ["Drawing", "draw"]
 
@@ -108,6 +112,8 @@ class Drawing:
             return self._weakening(path)
         if name == "toe":
             return self._toe(path)
+        if name == "shaking":
+            return self._shaking(path)
         if self.first is None:
             return None
         if name == "force_chains":
@@ -124,12 +130,51 @@ class Drawing:
         envelope = self.section.envelope
         return seen and figures.toe(*seen, self.section, path, friction_deg=envelope and envelope.friction_deg)
 
+    def _shaking(self, path):
+        """Nothing where the ground does not shake, or t0 has not come. Beside the displacement along each slip surface
+        that of Newmark's block on it, where one rests without shaking.
+        """
+        shaking, t0 = self.section.shaking, self.first and self.first.time_s
+        if shaking is None or t0 is None:
+            return None
+        motion, t = shaking.motion, self.every["time_s"] - t0 - shaking.begin
+        ground = np.unique(np.r_[motion.times, t[t > 0]])
+        blocks = dict(_blocks(self.section, ground))
+        names = sorted((name for name, _ in self.section.slip_surfaces), key=lambda name: name not in blocks)
+        return figures.shaking(
+            ground,
+            motion.acceleration(ground),
+            motion.velocity(ground),
+            motion.displacement(ground),
+            surfaces=[(name, t, self.every[records.column(PERMANENT.name, name)]) for name in names],
+            blocks=[blocks[name] for name in names if name in blocks],
+            title=f"{motion.name} ({motion.source})",
+            path=path,
+        )
+
     def _weakening(self, path):
         """Nothing where no wall weakens, or where the snapshots are of an earlier version and do not tell."""
         if not self.section.weakening or not self.shots or records.read_snapshot(self.shots[0][1]).weakened is None:
             return None
         cases = (records.read_snapshot(file) for _, file in self.shots)
         return figures.weakening(cases, self.section, path, times=self.times)
+
+
+def _blocks(section, times):
+    """(name, (label, times [s], displacement [m])) of Newmark's block on each slip surface, with the friction and the
+    dip of that; none where it does not rest without shaking, has cohesion, or would be lifted off.
+    """
+    for one, (name, line) in zip(section.sliding, section.slip_surfaces):
+        material, dip = section.materials[one.material], abs(roles.dip_of(*roles.chord([line])))
+        if material.bonded and material.tensile_strength > 0:
+            continue
+        try:
+            block = newmark.Block(dip, material.friction, gravity=section.gravity, side=section.side)
+            slide = newmark.slide(block, section.shaking.motion)
+        except newmark.NewmarkError:
+            continue
+        label = f"Newmark's block on {name}, μ = {material.friction:g}, {dip:.3g}°"
+        yield name, (label, times, slide.at(times))
 
 
 def draw(folder, section, summary, progress=None) -> tuple[list[Path], list[str]]:

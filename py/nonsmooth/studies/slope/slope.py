@@ -14,7 +14,7 @@ from yade.minieigenHP import Vector3
 from yade.wrapper import ContactDynamicsEngine, NonsmoothTimeStepper, PorePressureEngine
 
 from ...model import scales
-from ...world import scene, worlds
+from ...world import scene, shaking, worlds
 
 __all__ = ["Slope", "build", "find", "hard", "is_hard", "order_of", "set_strengths"]
 
@@ -43,6 +43,7 @@ class Slope:
     count: int
     solver: object
     water: object  # PorePressureEngine or None
+    shaking: object = None  # GroundMotionEngine or None
 
     def wall_material(self, name):
         """Material of a wall."""
@@ -134,6 +135,10 @@ def build(section, packing, world=None) -> Slope:
                 volumeFactor=1.0 if w.volume == "disk" else 1 / section.disks.packing_fraction,
             )
         )
+    if section.shaking is not None:
+        shaken = shaking.ground_motion(section.shaking.motion)
+        shaken.dead = True  # until t0
+        before.append(shaken)
     O.engines = world.engines(gravity=(0, -section.gravity, 0), before=before)
     n = section.numerics
     if world.name == "hard" and n.path:
@@ -180,7 +185,13 @@ def find(section, walls, first_disk, count) -> Slope:
     """Handles of a scene that is there already, as after O.load."""
     engines = {type(e).__name__: e for e in O.engines}
     return Slope(
-        section, walls, first_disk, count, engines.get("ContactDynamicsEngine"), engines.get("PorePressureEngine")
+        section,
+        walls,
+        first_disk,
+        count,
+        engines.get("ContactDynamicsEngine"),
+        engines.get("PorePressureEngine"),
+        engines.get("GroundMotionEngine"),
     )
 
 

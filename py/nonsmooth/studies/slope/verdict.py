@@ -12,16 +12,18 @@ from dataclasses import dataclass
 import numpy as np
 
 from ... import course, records
+from ...course import triggers
 from ...model import scales
 
 __all__ = ["MEANINGS", "TITLES", "Verdict", "of"]
 
-STOOD, SLID, DRY, MOVED, WATER, RESTLESS, UNFINISHED = (
+STOOD, SLID, DRY, MOVED, WATER, SHAKEN, RESTLESS, UNFINISHED = (
     "stood",
     "slid",
     "failed dry",
     "moved dry",
     "failed by water",
+    "failed by shaking",
     "not at rest",
     "not over",
 )
@@ -33,6 +35,7 @@ MEANINGS = {
     MOVED: "it moved off so, and not, or not surely, by its weight: a script, or a wall that moves, had done work on it; or, with soft contacts, whose work nobody counts, it "
     "had been at rest under its weight",
     WATER: "it moved off once water acted on it",
+    SHAKEN: "it moved off once the ground shook, while water acted on it or dry",
     RESTLESS: "it had neither moved off nor come to rest when the run ended",
     UNFINISHED: "the run was stopped before it was known",
 }
@@ -45,6 +48,7 @@ TITLES = {
     DRY: "the slope failed dry",
     MOVED: "the slope moved dry",
     WATER: "the slope failed by water",
+    SHAKEN: "the slope failed by shaking",
     RESTLESS: "the slope did not come to rest",
     UNFINISHED: "the run is not over",
 }
@@ -73,20 +77,36 @@ def of(series, section, state, times, disks=None) -> Verdict:
         if times["t5"] is not None
         else f"; it had not come to rest at {last:.1f} s, when the run {'ended' if over else 'was stopped'}"
     )
-    if state.get("failed_dry") is not None or not _wet(series, moved):
+    start = triggers.since(state.get("t0"), state.get("failed_dry"))
+    # what moves after the record, in water, is the water's
+    shaken = (triggers.acting if _wet(series, moved) else triggers.begun)(section, start, moved)
+    if not shaken and (state.get("failed_dry") is not None or not _wet(series, moved)):
         return _dry(series, section, state, moved, rest)
     fast = float(np.max(series["speed_mean_m_per_s"][series["time_s"] >= moved - 1e-9]))
     table = _at(series, "water_m", moved)
     if not over and fast < scales.of(section).going_speed:
         return Verdict(
             UNFINISHED,
-            f"the run was stopped at {last:.1f} s, while the slope moved and could still have come to rest again; it began to at {moved:.1f} s, with the water table at {table:.4g} m",
+            f"the run was stopped at {last:.1f} s, while the slope moved and could still have come to rest again; it began to at {moved:.1f} s{f', with the water table at {table:.4g} m' * (section.water is not None)}",
         )
+    if shaken:
+        return _shaken(series, section, state, moved, start, rest)
     failure = table if times["t1"] is None else _at(series, "water_m", times["t1"])
     also = f"; {_from_outside(state)} before, so it may not have been the water alone" if state.get("outside") else ""
     return Verdict(
         WATER,
         f"the slope failed by water, with the table at {failure:.4g} m; it began to move at {moved:.1f} s{rest}{also}",
+    )
+
+
+def _shaken(series, section, state, moved, start, rest):
+    """Of a slope that moved off while the ground shook."""
+    since, motion = moved - start - section.shaking.begin, section.shaking.motion
+    also = f"; {_from_outside(state)} before, so it may not have been the shaking alone" if state.get("outside") else ""
+    return Verdict(
+        SHAKEN,
+        f"the slope failed by shaking{_water(series, section, None, moved)}; it began to move at {moved:.1f} s, {since:.1f} s after the record began, whose largest acceleration is "
+        f"{motion.peak_acceleration():.3g} m/s²{rest}{also}",
     )
 
 

@@ -61,8 +61,11 @@ def test_a_slope_is_measured_as_its_summary_has_it(tmp_path, monkeypatch):
         },
         rel=SAME,
     )
+
     # from t0 on, and the clock begins when the slope moves
-    at = lambda name, time: found.curves[name][np.argmin(np.abs(found.curves["abscissa"] - time))]  # noqa: E731
+    def at(name, time):
+        return found.curves[name][np.argmin(np.abs(found.curves["abscissa"] - time))]
+
     assert (found.curves["abscissa"][0], found.curves["abscissa"][-1]) == pytest.approx((10 - 30.5, 100 - 30.5))
     assert (at("front", -10.0), at("front", 29.5), at("front", 69.0)) == pytest.approx((0.0, 1100.0, 1000.5)) and at(
         "centroid", 57.5 - 30.5
@@ -240,7 +243,10 @@ def test_means_differences_and_scatter(told):
 
 def test_deposits_of_one_packing_and_of_different_ones(told):
     """Rows of 100, 104 and 111 disks, and of 110, 114 and 122 on soft contacts."""
-    ratio = lambda *pairs: np.mean([min(p) / max(p) for p in pairs])  # noqa: E731
+
+    def ratio(*pairs):
+        return np.mean([min(p) / max(p) for p in pairs])
+
     # rounded ends
     assert told[0]["deposit_overlap_fraction"] == pytest.approx(ratio((100, 110), (104, 114), (111, 122)), abs=2e-3)
     assert told[0]["deposit_overlap_fraction_between_seeds"] == pytest.approx(
@@ -345,7 +351,12 @@ def test_the_work_of_a_run_grows_as_its_steps_and_sweeps_do():
     """In units of the hard run's: as many steps as a shorter step asks for, 10^0.6 times the sweeps for a hundredth of
     the tolerance; springs four times as stiff take twice the steps.
     """
-    hard = lambda **numerics: cases.work_of(cases.Case("hard", "made up", 550, 1, **numerics))  # noqa: E731
-    soft = lambda stiffness: cases.work_of(cases.Case("soft", "made up", 550, 1, stiffness=stiffness))  # noqa: E731
+
+    def hard(**numerics):
+        return cases.work_of(cases.Case("hard", "made up", 550, 1, **numerics))
+
+    def soft(stiffness):
+        return cases.work_of(cases.Case("soft", "made up", 550, 1, stiffness=stiffness))
+
     assert hard() == 1 and hard(step=0.5) == 2 and hard(tolerance=0.01) == pytest.approx(10**0.6, rel=1e-12)
     assert soft(3e8) == 1 and soft(12e8) == 2

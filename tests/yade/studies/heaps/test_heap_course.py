@@ -103,7 +103,10 @@ def test_the_stiffness_that_is_asked_for_is_enough(few, monkeypatch):
     So many pascals are let through, a tenth less is not, and what the message asks for is let through whatever its
     digits."""
     monkeypatch.setattr(preparation, "put", lambda *scene: None)
-    soft = lambda e: worlds.Soft(stiffness=e, diameter=few.diameters())  # noqa: E731
+
+    def soft(e):
+        return worlds.Soft(stiffness=e, diameter=few.diameters())
+
     for height in np.linspace(1.0, 1.5, 11):
         made = SimpleNamespace(height=height, x=None, y=None, r=None)
         monkeypatch.setattr(preparation, "prepared", lambda heap: made)

@@ -992,7 +992,10 @@ def test_effects_compare_each_value_with_the_usual_one_sample_by_sample(tmp_path
         runs.append(out)
         progress(0.0, "")
         progress(1.0, "")
-        strong = lambda t: 30e6 * (1 + 0.1 * t.shape.seed) * (1.02 if t.inertia > 1.5e-4 else 1.0)  # noqa: E731
+
+        def strong(t):
+            return 30e6 * (1 + 0.1 * t.shape.seed) * (1.02 if t.inertia > 1.5e-4 else 1.0)
+
         return [
             {
                 "seed": t.shape.seed,

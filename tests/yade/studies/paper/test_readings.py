@@ -335,9 +335,12 @@ def test_samples_under_one_pressure_without_slopes(tmp_path, monkeypatch):
     """
     chosen = {reading_numbers.SHIPPED: SHIPPED}
     monkeypatch.setattr(readings, "slope_of", None)  # no section is made for a slope that nobody runs
-    of = lambda *pressures: readings.run(  # noqa: E731
-        chosen, tmp_path / str(pressures[0]), 600, 150, [1], ["smooth"], 0.01, pressures, slopes=False
-    )
+
+    def of(*pressures):
+        return readings.run(
+            chosen, tmp_path / str(pressures[0]), 600, 150, [1], ["smooth"], 0.01, pressures, slopes=False
+        )
+
     (row,) = of(reading_numbers.FIGURE_9)
     assert [folder.name for folder in (tmp_path / "8000000.0").iterdir()] == ["samples"]
     assert [name for name in PAPER if row[name] is None] == list(PAPER)[:4] + ["water_highest_m"]

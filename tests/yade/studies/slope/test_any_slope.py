@@ -141,7 +141,10 @@ def test_strips_of_a_mirrored_slope_are_mirrored():
 
 def test_rows_of_walls_are_the_series_by_wall(whole):
     walls, series = records.read_walls(whole.folder / "walls.csv"), whole.series
-    of = lambda wall, name: walls[name][walls["wall"] == wall]  # noqa: E731
+
+    def of(wall, name):
+        return walls[name][walls["wall"] == wall]
+
     assert len(walls["step"]) == 3 * len(series["step"]) and np.array_equal(of("FB", "step"), series["step"])
     for wall, column in (("DP", "dp_normal_effective"), ("FB", "fb_normal"), ("SS", "ss_normal")):
         assert (
@@ -174,7 +177,10 @@ def test_a_role_of_two_walls_has_their_sum(tmp_path):
 
     series, told = run(written(tmp_path, cut), tmp_path / "out", 1.0)
     walls = records.read_walls(tmp_path / "out" / "walls.csv")
-    of = lambda wall, name: walls[name][walls["wall"] == wall]  # noqa: E731
+
+    def of(wall, name):
+        return walls[name][walls["wall"] == wall]
+
     for name, column in (("normal_N_per_m", "dp_normal_effective_N_per_m"), ("shear_N_per_m", "dp_shear_N_per_m")):
         assert of("upper", name) + of("lower", name) == pytest.approx(series[column], rel=1e-12)  # rounding
         assert of("upper", name)[-1] > 0 and of("lower", name)[-1] > 0

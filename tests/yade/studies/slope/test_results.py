@@ -517,9 +517,11 @@ def test_a_run_that_failed_dry_is_told_from_its_beginning(tmp_path):
             "fb_force_at_failure_over_passive",
         )
     )
-    between = lambda low, high: low + 0.05 * (
-        high - low
-    )  # noqa: E731  the percentile of a thousand rows, between the 950 since it settled and the 50 before
+
+    def between(low, high):
+        """The percentile of a thousand rows, between the 950 since it settled and the 50 before."""
+        return low + 0.05 * (high - low)
+
     assert_known(
         summary_of(tmp_path, failed_dry=3.0),
         **gone,
@@ -604,9 +606,10 @@ def test_a_slope_of_another_size_has_the_same_summary_in_its_units(tmp_path, siz
             if name.endswith("N_per_m") and not name.startswith("residual")
         },
     }
-    stretch = lambda made: lambda: {
-        name: size * values if name in "xyr" else values for name, values in made().items()
-    }  # noqa: E731
+
+    def stretch(made):
+        return lambda: {name: size * values if name in "xyr" else values for name, values in made().items()}
+
     series = {name: units[of_columns.get(name)] * values for name, values in known_slope.series().items()}
     known_slope.write(tmp_path, series, stretch(known_slope.begin), stretch(known_slope.end))
     found = summary_of(

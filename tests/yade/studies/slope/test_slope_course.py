@@ -216,8 +216,13 @@ def test_a_disk_that_leaves_the_section_is_refused(side):
     margin = 0.1 * max(x1 - x0, y1 - y0)
     middle = (0.5 * (x0 + x1), 0.5 * (y0 + y1))
     axis, end, way = {"left": (0, x0, -1), "right": (0, x1, 1), "below": (1, y0, -1), "above": (1, y1, 1)}[side]
-    place = lambda at: tuple(at if k == axis else middle[k] for k in (0, 1))  # noqa: E731
-    table = lambda one: {"x": np.array([middle[0], one[0]]), "y": np.array([middle[1], one[1]])}  # noqa: E731
+
+    def place(at):
+        return tuple(at if k == axis else middle[k] for k in (0, 1))
+
+    def table(one):
+        return {"x": np.array([middle[0], one[0]]), "y": np.array([middle[1], one[1]])}
+
     SlopeMonitor.inside(run, table(place(end + way * (margin - 1e-3))), "out")
     for lost in (end + way * (margin + 1e-3), way * 1e9, np.nan):
         with pytest.raises(experiment.ExperimentError) as refused:

@@ -172,7 +172,10 @@ def test_a_run_without_rows_is_refused(tmp_path):
 
 def test_a_mirrored_slope_has_the_same_summary(tmp_path):
     """Left and right exchanged in the section, the series and the snapshots."""
-    mirror = lambda made: lambda: {n: -v if n in ("x", "angle", "vx") else v for n, v in made().items()}  # noqa: E731
+
+    def mirror(made):
+        return lambda: {n: -v if n in ("x", "angle", "vx") else v for n, v in made().items()}
+
     series = {n: -v if n in ("front_m", "centroid_x_m") else v for n, v in known_slope.series().items()}
     here = summary_of(tmp_path / "here")
     there = summary_of(

@@ -17,6 +17,9 @@ characteristic_times, results, verdict = (
 )
 SHIPPED = known_slope.SHIPPED
 STATE = known_slope.STATE | {"outside": 0.0, "rested": 4.0, "quiet_since": None}
+SHAKEN = dataclasses.replace(
+    SHIPPED, shaking=synthetic.load("model.section").load("jiufengershan_shaken").shaking
+)  # from 11 s to 41 s
 RESTING = dict(speed_mean_m_per_s=lambda t: np.full(len(t), 1e-3), centroid_x_m=lambda t: np.full(len(t), 40.0))
 SIZE = math.sqrt(SHIPPED.area)
 DRY = dict(wet_disks=lambda t: 0 * t, water_m=lambda t: 0 * t)
@@ -80,6 +83,7 @@ def test_every_verdict_is_said_and_each_has_its_meaning():
         of(moving=None, columns=RESTING).kind,
         of(failed_dry=3.0).kind,
         of(failed_dry=8.0, outside=1e6).kind,
+        of(SHAKEN).kind,
         of(moving=None).kind,
         of(moving=None, columns=slid(0.05)).kind,
         of(stage="dry", until=9.0, moving=None, t0=None).kind,
@@ -98,6 +102,30 @@ def test_a_failure_by_water_has_its_height(mirrored):
     )
 
 
+def test_a_failure_while_it_shakes_is_of_the_shaking_dry_or_wet():
+    wet, dry = of(SHAKEN), of(dataclasses.replace(SHAKEN, water=None), columns=DRY)
+    assert wet.kind == dry.kind == "failed by shaking" and wet.before is None
+    assert ", with the water table at 10.25 m and 110 disks wet; it began to move at 30.5 s, 19.5 s after" in wet.says
+    assert ", without water; it began" in dry.says and "largest acceleration is 4.9 m/s²" in dry.says
+    pushed = of(SHAKEN, outside=2e6)
+    assert "2e+06 J/m before, so it may not have been the shaking alone" in pushed.says
+
+
+@pytest.mark.parametrize("moving, kind", [(10.9, "water"), (11.1, "shaking"), (40.9, "shaking"), (41.1, "water")])
+def test_in_water_the_shaking_is_the_cause_while_it_lasts(moving, kind):
+    assert of(SHAKEN, moving=moving, columns={"wet_disks": lambda t: 0 * t + 9}).kind == f"failed by {kind}"
+
+
+def test_dry_it_is_the_cause_afterwards_too():
+    """A slope that stood dry before the shaking, and moves off some seconds after it."""
+    assert of(SHAKEN, moving=45.0, columns=DRY).kind == "failed by shaking"
+    assert of(SHAKEN, moving=10.9, columns=DRY).kind == "failed dry"
+
+
+def test_what_failed_by_its_weight_was_not_shaken():
+    assert of(SHAKEN, failed_dry=3.0).kind == "failed dry"
+
+
 def test_a_slope_that_stood_says_how_far_the_water_came():
     found = of(moving=None, columns=RESTING)
     assert found.kind == "stood" and found.says == (
@@ -112,7 +140,9 @@ def test_a_slope_that_stood_says_how_far_the_water_came():
 
 
 def test_one_that_neither_moves_off_nor_rests():
-    speed = lambda at: RESTING | {"speed_mean_m_per_s": lambda t: np.full(len(t), at)}  # noqa: E731
+    def speed(at):
+        return RESTING | {"speed_mean_m_per_s": lambda t: np.full(len(t), at)}
+
     assert of(moving=None, columns=speed(0.0199)).kind == "stood"
     assert of(moving=None, columns=speed(0.0201)).kind == "not at rest"  # of the shipped section's 0.02 m/s
 

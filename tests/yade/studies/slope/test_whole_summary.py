@@ -197,8 +197,13 @@ class Summary:
         """Of means over the 0.2 s up to t0 to t3, to t5 and to the end; friction of DP is 0.45."""
         t = self.rows["time_s"]
         t0, t1, t2, t3, _, t5 = self.times.values()
-        at = lambda name, when: self.at(f"{name}_N_per_m", when, 0.2)  # noqa: E731
-        part = lambda name, low, high: self.rows[f"{name}_N_per_m"][(t > low) & (t < high + 1e-6)]  # noqa: E731
+
+        def at(name, when):
+            return self.at(f"{name}_N_per_m", when, 0.2)
+
+        def part(name, low, high):
+            return self.rows[f"{name}_N_per_m"][(t > low) & (t < high + 1e-6)]
+
         rise = {
             name: at(name, t1) - at(name, t0)
             for name in ("dp_normal_total", "dp_shear", "dp_water", "fb_normal", "fb_shear")

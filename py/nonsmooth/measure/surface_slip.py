@@ -1,0 +1,70 @@
+"""How far the mass has slipped along slip surfaces since t0: the permanent displacement that an earthquake leaves.
+
+A slip surface's disks are those that touched it at t0: of a wall the disks on it, of an interface those of each layer
+that touched the other's. Its displacement is the mean way of these disks down the surface, from end to end of it; of an
+interface that of the upper layer's less that of the lower's. A surface that nothing touched has none. Needs no YADE.
+"""
+
+from __future__ import annotations
+
+import math
+from typing import NamedTuple
+
+import numpy as np
+
+from ..model import roles
+
+__all__ = ["Surface", "displacements", "surfaces"]
+
+
+class Surface(NamedTuple):
+    """A slip surface: its ``name``, the direction ``way`` down it (x, y), and the numbers of the disks ``above`` and,
+    of an interface, ``below``.
+    """
+
+    name: str
+    way: tuple[float, float]
+    above: np.ndarray
+    below: np.ndarray
+
+
+def surfaces(section, begin) -> list[Surface]:
+    """The slip surfaces of a Section with the disks that touch them in the Snapshot ``begin``, which has contacts."""
+    numbers = {wall.name: k for k, wall in enumerate(section.walls)}
+    between = {one.name: section.numbers_of(one) for one in section.interfaces}
+    found = []
+    for name, line in section.slip_surfaces:
+        chord = roles.chord([line])
+        way = chord / math.hypot(*chord)
+        if way @ section.downslope < 0:  # of a level surface below a slope that falls to the left
+            way = -way
+        if name in numbers:
+            above, below = begin.ci[begin.cj == -1 - numbers[name]], np.zeros(0, int)
+        else:
+            above, below = _across(begin, *between[name])
+        found.append(Surface(name, tuple(way.tolist()), np.unique(above), np.unique(below)))
+    return found
+
+
+def _across(begin, lower, upper):
+    """The disks of the upper layer that touch the lower one's, and those."""
+    disks = begin.cj >= 0
+    a, b = begin.ci[disks], begin.cj[disks]
+    a, b = np.r_[a, b], np.r_[b, a]
+    chosen = (begin.layer[a] == upper) & (begin.layer[b] == lower)
+    return a[chosen], b[chosen]
+
+
+def displacements(found, begin, x, y) -> dict[str, float]:
+    """{name: displacement [m], positive down the surface} of :func:`surfaces`, from the Snapshot ``begin`` to centres
+    at ``x``, ``y`` (n,) [m].
+    """
+    told = {}
+    for one in found:
+        along = (x - begin.x) * one.way[0] + (y - begin.y) * one.way[1]
+        told[one.name] = _mean(along, one.above) - _mean(along, one.below)
+    return told
+
+
+def _mean(values, chosen):
+    return float(np.mean(values[chosen])) if len(chosen) else 0.0
