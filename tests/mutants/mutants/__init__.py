@@ -2,6 +2,7 @@
 from . import (
     between,
     course,
+    dilatancy,
     drawing,
     engines,
     impacts,
@@ -27,6 +28,7 @@ MUTANTS = (
     + impacts.MUTANTS
     + walls.MUTANTS
     + course.MUTANTS
+    + dilatancy.MUTANTS
     + results.MUTANTS
     + shaking.MUTANTS
     + safety.MUTANTS

@@ -23,6 +23,7 @@ from .parts import (
     Layer,
     Material,
     Numerics,
+    Release,
     Settle,
     SlipWeakening,
     Stages,
@@ -211,4 +212,17 @@ def _water(raw: dict, section: Section, document) -> Water:
         float(table.get("rate", 0.0)),
         raw["release_distance"] if isinstance(raw["release_distance"], str) else float(raw["release_distance"]),
         wall.name if wall else None,
+        _release(raw.get("release", {"by": "slip"}), document),
     )
+
+
+def _release(raw: dict, document) -> Release | None:
+    if raw["by"] != "slip":
+        return Release(raw["by"], **_floats({k: v for k, v in raw.items() if k != "by"}))
+    for key in raw.keys() - {"by"}:
+        document.refuse(
+            ("water", "release", key),
+            f"{raw[key]:g} does nothing where slip releases the water",
+            "leave it out, or give `by: dilatancy` or `by: slip_or_dilatancy`",
+        )
+    return None

@@ -92,6 +92,8 @@ def plain(section) -> dict:
             "table": table,
             "release_distance": water.release_distance,
         }
+        if water.release is not None:
+            data["water"]["release"] = {k: v for k, v in dataclasses.asdict(water.release).items() if v is not None}
     if section.shaking is not None:
         data["shaking"] = section_shaking.plain(section.shaking)
     return data

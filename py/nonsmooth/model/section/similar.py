@@ -39,6 +39,7 @@ POWERS = {
     "water.table.rate": SPEED,
     "water.table.points": (TIME, LENGTH),
     "water.release_distance": LENGTH,
+    "water.release.drainage_time": TIME,
     "shaking.begin": TIME,
     "shaking.stretch": TIME,
     "stages.settle.ramp": TIME,

@@ -37,6 +37,7 @@ from .attached import come_to, row  # noqa: F401  a scene's CourseRunner calls e
 from .columns import COLUMNS
 from .error import ArgumentError, EndError, ExperimentError
 from .monitoring import SlopeMonitor
+from .water_release import WaterRelease
 
 __all__ = ["ArgumentError", "EndError", "Experiment", "ExperimentError", "State", "COLUMNS", "begin", "resume"]
 
@@ -62,6 +63,8 @@ class Experiment(driver.Course):
         self.state = state or State()
         self.progress = progress or (lambda *_: None)
         self.scales = scales.of(self.section)
+        by_dilatancy = self.section.water is not None and self.section.water.release is not None
+        self.release = WaterRelease(built, mark and mark["release"]) if by_dilatancy else None
         self.stands = False  # see run
         self.unsaved = None if self.hard else "a slope of soft contacts"
         if state is None:
@@ -200,7 +203,8 @@ class Experiment(driver.Course):
         solver = self.slope.solver
         disks = tables.bodies(solver)
         self.monitor.inside(disks, self.folder)
-        seen = self.monitor.seen(self.state, disks, not self.stands)
+        more = not self.stands or (self.release is not None and self.release.relaxes)
+        seen = self.monitor.seen(self.state, disks, more)
         s = self.state = course.noted(self.state, seen, self.scales)
         s.overlap_mean_worst = max(s.overlap_mean_worst, solver.overlapMean)
         values, regular = self.monitor.row(s, disks), course.keeps_frame(s, row)
@@ -209,13 +213,13 @@ class Experiment(driver.Course):
         if self.frames.takes(values, regular, asdict(course.after(s, seen, self.section, self.scales))):
             self.snapshot(self.frames.path(O.iter))
         self.frames.tidy()
-        self._decide(seen)
+        self._decide(seen, disks)
         self.progress(self.state.stage, O.time, course.foreseen(self.state, O.time, self.section))
 
     def _finish(self):
         self.checkpoint()
 
-    def _decide(self, seen):
+    def _decide(self, seen, disks):
         """Goes on to the next state, and does what the change means."""
         before, self.state = self.state, course.after(self.state, seen, self.section, self.scales)
         changed = self.state.stage if self.state.stage != before.stage else None
@@ -228,6 +232,8 @@ class Experiment(driver.Course):
         table = course.water_table(self.state, self.section)
         if table != course.water_table(before, self.section):
             self.slope.water.times, self.slope.water.heights = table
+        if self.release is not None:  # before a checkpoint is written
+            self.release.look(disks, self.state.moving is not None)
         if changed == "done":
             self.snapshot(self.folder / "end.npz", contacts=True)
         elif changed:
@@ -312,6 +318,7 @@ class Experiment(driver.Course):
                     "state": asdict(self.state),
                     "series": self.series.mark(),
                     "wall_series": self.walls.file.mark(),
+                    **({"release": self.release.content()} if self.release is not None else {}),
                 },
             )
         self.frames.saved()
@@ -399,6 +406,7 @@ def resume(section, folder, progress=None):
         ) from None
     for name, one in mark.items():
         records.kept(Path(folder) / f"{name}.csv", one)  # all of them, before any is written to
+    mark["release"] = content.get("release")
     O.engines = attached.others()  # without that of the run that saved it
     built = slope.find(section, content["walls"], content["first_disk"], content["count"])
     return Experiment(built, folder, state=state, progress=progress, mark=mark)

@@ -16,7 +16,7 @@ from ...model import scales
 from ...records.columns import without
 from ...world import tables
 from . import slope
-from .columns import COLUMNS, OF_SHAKING, PERMANENT
+from .columns import COLUMNS, OF_SHAKING, PERMANENT, RELEASED
 from .error import ExperimentError
 from .wall_series import WallSeries
 
@@ -43,8 +43,8 @@ class SlopeMonitor:
     scene has them.
 
     ``walls``: its WallSeries, once :meth:`open_walls` has been called; ``columns``: those of the rows, {name: Column};
-    ``hard``: whether its disks are rigid; ``mass``: which disks are of the mass, bool (count,), None: all. ``disks``
-    and ``t`` are the table of :func:`.tables.bodies`.
+    ``hard``: whether its disks are rigid; ``by_dilatancy``: whether local dilatancy releases its water; ``mass``: which
+    disks are of the mass, bool (count,), None: all. ``disks`` and ``t`` are the table of :func:`.tables.bodies`.
     """
 
     def __init__(self, built, layers=None):
@@ -65,6 +65,9 @@ class SlopeMonitor:
         if self.section.shaking is not None:
             names = [records.column(PERMANENT.name, name) for name, _ in self.section.slip_surfaces]
             self.columns = self.columns | OF_SHAKING | {name: PERMANENT._replace(name=name) for name in names}
+        self.by_dilatancy = self.section.water is not None and self.section.water.release is not None
+        if self.by_dilatancy:
+            self.columns = self.columns | {RELEASED.name: RELEASED}
 
     def open_walls(self, path, mark=None):
         """Opens the file of walls, and returns its WallSeries; ``mark``: of a checkpoint."""
@@ -202,6 +205,8 @@ class SlopeMonitor:
             "energy_kinetic_J": e.kineticEnergy,
             "energy_potential_J": e.potentialEnergy,
         }
+        if self.by_dilatancy:
+            row[RELEASED.name] = self._released(disks)
         for name, force in of_surfaces.items():
             share = lift * self._share(disks, self._borne_by[name]) if water else 0.0
             row |= self._of_surface(name, force, share)
@@ -234,7 +239,18 @@ class SlopeMonitor:
         if part is None:
             return 1.0
         wet = tables.water(self.slope.water, self.slope.first_disk, self.slope.count)[0] * t["r"] ** 2
+        if self.by_dilatancy:
+            wet = wet * (1 - self._shares())
         return float((wet[part] if part.dtype == bool else wet * part).sum() / wet.sum()) if wet.any() else 0.0
+
+    def _shares(self):
+        """Released share of the pressure on each disk."""
+        return tables.released_shares(self.slope.water, self.slope.first_disk, self.slope.count)
+
+    def _released(self, t):
+        """The value of RELEASED."""
+        area = tables.water(self.slope.water, self.slope.first_disk, self.slope.count)[2] * t["r"] ** 2
+        return float((area * self._shares()).sum() / area.sum()) if area.any() else 0.0
 
     def _of_solver(self, state, e):
         """The columns of OF_SOLVER."""
@@ -264,6 +280,8 @@ class SlopeMonitor:
         first, count = built.first_disk, built.count
         arrays = {name: t[name] for name in ("x", "y", "r", "angle", "vx", "vy")}
         arrays["wet"], arrays["released"], arrays["ever_wet"] = tables.water(water, first, count)
+        if self.by_dilatancy:
+            arrays["released_share"] = self._shares()
         arrays["weakened"] = self.walls.weakened()
         if contacts:
             wall_numbers = {i: k for k, ids in enumerate(built.walls.values()) for i in ids}
