@@ -2,6 +2,7 @@
 from . import (
     between,
     course,
+    dilatancy,
     drawing,
     engines,
     erosion,
@@ -30,6 +31,7 @@ MUTANTS = (
     + walls.MUTANTS
     + course.MUTANTS
     + section_water.MUTANTS
+    + dilatancy.MUTANTS
     + results.MUTANTS
     + shaking.MUTANTS
     + safety.MUTANTS

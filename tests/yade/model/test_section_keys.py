@@ -22,6 +22,7 @@ from yade.nonsmooth import experiment, packing, records, section
 from yade.nonsmooth.measure import toe
 from yade.nonsmooth.model import rocks
 from yade.nonsmooth.studies.slope import results, slope
+from yade.nonsmooth.studies.slope.water_release import WaterRelease
 from yade.nonsmooth.water import field_files, of_section
 from yade.nonsmooth.water.fields import MeshField
 from yade.nonsmooth.water.mesh import grid
@@ -821,6 +822,27 @@ WHERE = {
         ({("water", "release_distance"): 0.25}, lambda m: m.built.water.releaseDistance, 0.25),
         ({("water", "release_distance"): "critical_slip"}, lambda m: m.built.water.releaseDistance, 50.0),
     ],
+    ("water", "release", "by"): [
+        ({("water", "release"): {"by": "dilatancy"}}, lambda m: m.built.water.releaseDistance, math.inf),
+        ({("water", "release"): {"by": "slip_or_dilatancy"}}, lambda m: m.built.water.releaseDistance, 0.5),
+        ({("water", "release"): {"by": "slip"}}, lambda m: m.built.water.releaseDistance, 0.5),
+    ],
+    ("water", "release", "dilation"): (
+        {("water", "release"): {"by": "dilatancy", "dilation": 0.05}},
+        lambda m: WaterRelease(m.built).rule.dilation,
+        0.05,
+    ),
+    # d² of these disks has the mean 1 · 2
+    ("water", "release", "over"): (
+        {("water", "release"): {"by": "dilatancy", "over": 2}},
+        lambda m: WaterRelease(m.built).reach,
+        pytest.approx(2 * math.sqrt(2)),
+    ),
+    ("water", "release", "drainage_time"): (
+        {("water", "release"): {"by": "dilatancy", "drainage_time": 7}},
+        lambda m: WaterRelease(m.built).rule.drainage_time,
+        7.0,
+    ),
     **{
         ("shaking", key): (
             {("shaking",): SHAKEN | change},

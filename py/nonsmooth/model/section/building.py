@@ -15,6 +15,7 @@ from . import (
     units as section_units,
     values as section_values,
     water as section_water,
+    water_release,
 )
 from .section import Section
 from .parts import (
@@ -218,4 +219,5 @@ def _water(raw: dict, section: Section, document) -> Water:
         float(table.get("rate", 0.0)),
         raw["release_distance"] if isinstance(raw["release_distance"], str) else float(raw["release_distance"]),
         wall.name if wall else None,
+        water_release.read(raw, document),
     )

@@ -118,7 +118,7 @@ def notes(section: Section) -> list[str]:
 
 def _release_notes(section):
     slips, release = section.critical_slips, section.release_distance
-    if release is None or not slips or release in slips.values():
+    if release is None or math.isinf(release) or not slips or release in slips.values():
         return
     listed = ", ".join(f"{value:g} m ({name})" for name, value in slips.items())
     yield (

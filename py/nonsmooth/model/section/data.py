@@ -9,7 +9,7 @@ import dataclasses
 import yaml
 
 from ...system.whole_files import write_atomically
-from . import erosion, shaking as section_shaking, water as section_water
+from . import erosion, shaking as section_shaking, water as section_water, water_release
 
 __all__ = ["FILE", "material", "plain", "write"]
 
@@ -96,6 +96,7 @@ def plain(section) -> dict:
             "table": table,
             "release_distance": water.release_distance,
         }
+        data["water"] |= water_release.plain(water.release)
     if section.shaking is not None:
         data["shaking"] = section_shaking.plain(section.shaking)
     return data

@@ -204,10 +204,12 @@ class Section:
     def release_distance(self) -> float | None:
         """Way downslope [m] that releases a disk from water for good: the water's own, or where that is "critical_slip"
         the D_c of the slip surfaces that weaken (paper, section 5.4: one distance for both), of the water's plane where
-        they have several. None without water.
+        they have several. None without water, infinite where local dilatancy alone releases.
         """
         if self.water is None:
             return None
+        if self.water.release is not None and self.water.release.by == "dilatancy":
+            return math.inf
         if self.water.release_distance != "critical_slip":
             return self.water.release_distance
         slips = self.critical_slips

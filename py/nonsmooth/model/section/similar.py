@@ -40,6 +40,7 @@ POWERS = {
     "water.table.rate": SPEED,
     "water.table.points": (TIME, LENGTH),
     "water.release_distance": LENGTH,
+    "water.release.drainage_time": TIME,
     "water.phreatic.lines.time": TIME,
     "water.phreatic.lines.points": LENGTH,
     "water.seepage.size": LENGTH,

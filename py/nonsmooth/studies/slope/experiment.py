@@ -38,6 +38,7 @@ from .attached import come_to, row  # noqa: F401  a scene's CourseRunner calls e
 from .columns import COLUMNS
 from .error import ArgumentError, EndError, ExperimentError
 from .monitoring import SlopeMonitor
+from .water_release import WaterRelease
 
 __all__ = ["ArgumentError", "EndError", "Experiment", "ExperimentError", "State", "COLUMNS", "begin", "resume"]
 
@@ -67,6 +68,8 @@ class Experiment(driver.Course):
         self.state = state or State()
         self.progress = progress or (lambda *_: None)
         self.scales = scales.of(self.section)
+        by_dilatancy = self.section.water is not None and self.section.water.release is not None
+        self.release = WaterRelease(built, mark and mark["release"]) if by_dilatancy else None
         self.stands = False  # see run
         self.unsaved = None if self.hard else "a slope of soft contacts"
         if state is None:
@@ -207,7 +210,8 @@ class Experiment(driver.Course):
         solver = self.slope.solver
         disks = tables.bodies(solver)
         self.monitor.inside(disks, self.folder)
-        seen = self.monitor.seen(self.state, disks, not self.stands)
+        more = not self.stands or (self.release is not None and self.release.relaxes)
+        seen = self.monitor.seen(self.state, disks, more)
         s = self.state = course.noted(self.state, seen, self.scales)
         s.overlap_mean_worst = max(s.overlap_mean_worst, solver.overlapMean)
         values, regular = self.monitor.row(s, disks), course.keeps_frame(s, row)
@@ -238,6 +242,8 @@ class Experiment(driver.Course):
         begin = course.field_begin(self.state, self.section)
         if begin != course.field_begin(before, self.section):
             self.slope.water.field = pore_pressure.field(self.field, begin)
+        if self.release is not None:  # before disks go, and a checkpoint is written
+            self.release.look(disks, self.state.moving is not None)
         due = erosion.due(before, self.state, self.section)
         if due:
             x, y = self.monitor.take_out(due, disks)
@@ -328,6 +334,7 @@ class Experiment(driver.Course):
                     "series": self.series.mark(),
                     "wall_series": self.walls.file.mark(),
                     "eroded": self.eroding and self.eroding.file.mark(),
+                    **({"release": self.release.content()} if self.release is not None else {}),
                 },
             )
         self.frames.saved()
@@ -423,6 +430,7 @@ def resume(section, folder, progress=None):
     for name, one in mark.items():
         if one is not None:
             records.kept(Path(folder) / f"{name}.csv", one)  # all of them, before any is written to
+    mark["release"] = content.get("release")
     O.engines = attached.others()  # without that of the run that saved it
     built = slope.find(section, content["walls"], content["first_disk"], content["count"])
     try:

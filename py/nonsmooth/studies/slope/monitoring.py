@@ -17,7 +17,7 @@ from ...model import scales
 from ...records.columns import without
 from ...world import tables
 from . import slope
-from .columns import COLUMNS, ERODING, OF_SHAKING, PERMANENT
+from .columns import COLUMNS, ERODING, OF_SHAKING, PERMANENT, RELEASED
 from .eroding import Eroding
 from .error import ExperimentError
 from .wall_series import WallSeries
@@ -48,9 +48,9 @@ class SlopeMonitor:
     ``field``: the section's pore pressures in the time since t0, a MeshField, or None;
     ``walls``: its WallSeries, once :meth:`open_walls` has been called; ``eroding``: its Eroding, once
     :meth:`open_ledger` has, where the section has windows that take disks out; ``columns``: those of the rows, {name:
-    Column};
-    ``hard``: whether its disks are rigid; ``mass``: which disks are of the mass, bool (count,), None: all. ``disks``
-    and ``t`` are the table of :func:`.tables.bodies`, of those that are there.
+    Column}; ``hard``: whether its disks are rigid; ``by_dilatancy``: whether local dilatancy releases its water;
+    ``mass``: which disks are of the mass, bool (count,), None: all. ``disks`` and ``t`` are the table of
+    :func:`.tables.bodies`, of those that are there.
     """
 
     def __init__(self, built, layers=None, field=None):
@@ -76,6 +76,9 @@ class SlopeMonitor:
         if self.section.shaking is not None:
             names = [records.column(PERMANENT.name, name) for name, _ in self.section.slip_surfaces]
             self.columns = self.columns | OF_SHAKING | {name: PERMANENT._replace(name=name) for name in names}
+        self.by_dilatancy = self.section.water is not None and self.section.water.release is not None
+        if self.by_dilatancy:
+            self.columns = self.columns | {RELEASED.name: RELEASED}
 
     def open_walls(self, path, mark=None):
         """Opens the file of walls, and returns its WallSeries; ``mark``: of a checkpoint."""
@@ -271,6 +274,8 @@ class SlopeMonitor:
         }
         if self.eroding is not None:
             row |= self.eroding.columns(state)
+        if self.by_dilatancy:
+            row[RELEASED.name] = self._released(disks)
         for name, force in of_surfaces.items():
             share = lift * self._share(disks, self._borne_by[name], state) if water else 0.0
             row |= self._of_surface(name, force, share)
@@ -305,6 +310,8 @@ class SlopeMonitor:
         if part is None:
             return 1.0
         wet, part = tables.water(self.slope.water, self.slope.first_disk, self.slope.count)[0], self._there(part, t)
+        if self.by_dilatancy:
+            wet = wet * (1 - self._shares())
         wet = self._there(wet, t) * t["r"] ** 2
         begin = course.field_begin(state, self.section)
         if begin is not None:
@@ -312,6 +319,16 @@ class SlopeMonitor:
             wet = wet * (gradient[:, 0] * self.section.normal[0] + gradient[:, 1] * self.section.normal[1])
         whole = wet.sum()
         return float((wet[part] if part.dtype == bool else wet * part).sum() / whole) if whole else 0.0
+
+    def _shares(self):
+        """Released share of the pressure on each disk."""
+        return tables.released_shares(self.slope.water, self.slope.first_disk, self.slope.count)
+
+    def _released(self, t):
+        """The value of RELEASED."""
+        ever = tables.water(self.slope.water, self.slope.first_disk, self.slope.count)[2]
+        area, shares = self._there(ever, t) * t["r"] ** 2, self._there(self._shares(), t)
+        return float((area * shares).sum() / area.sum()) if area.any() else 0.0
 
     def _of_solver(self, state, e):
         """The columns of OF_SOLVER."""
@@ -342,6 +359,8 @@ class SlopeMonitor:
         arrays = {name: t[name] for name in ("x", "y", "r", "angle", "vx", "vy")}
         of_water = zip(("wet", "released", "ever_wet"), tables.water(water, first, count))
         arrays |= {name: self._there(values, t) for name, values in of_water}
+        if self.by_dilatancy:
+            arrays["released_share"] = self._there(self._shares(), t)
         arrays["weakened"] = self._there(self.walls.weakened(), t)
         numbers = t["id"] - first
         if contacts:
