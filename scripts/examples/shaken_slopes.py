@@ -1,7 +1,7 @@
 # From which peak acceleration on a slope fails when its ground shakes, when in the record, and how far it runs, beside the same slope under rising water.
 # Usage: scripts/yade-nonsmooth scripts/examples/shaken_slopes.py [table: section (that shakes by a synthetic motion), wet (the one beside it), disks, peaks [m/s²], seeds, folder]
-# Prints for each peak what became of its slopes: means over packings and half of their 95 % intervals. FOLDER/shaken.json keeps them. Draws FOLDER/shaken.png, the slip
-# along the first slip surface and the way of the front against the peak, and FOLDER/shaken_runouts.png, deposits of one packing shaken and wet.
+# Prints for each peak what became of its slopes: means over packings and half of their 95 % intervals. FOLDER/shaken.json keeps them. Draws FOLDER/shaken.png, when in the record slopes moved off
+# and the way of the front against the peak, and FOLDER/shaken_runouts.png, deposits of one packing shaken and wet.
 import os
 from pathlib import Path
 
@@ -49,7 +49,7 @@ for name, rows in (("shaken", means), ("wet", campaign.means(rain, ["seed"]))):
         one[kind] += len(row["seeds"])
         one[f"when_{kind}"] = {number: row["numbers"][number] for number in NAMES if number in row["numbers"]}
 whole_files.write_json(folder / "shaken.json", told)
-print(figures.means(means, KEY, ["slip_m", "front_travel_m"], folder / "shaken.png"))
+print(figures.means(means, KEY, ["moves_s", "front_travel_m"], folder / "shaken.png"))
 
 failed = [k for k, verdict in enumerate(found["verdict"]) if verdict == "failed by shaking"]
 if failed:
