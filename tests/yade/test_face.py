@@ -146,10 +146,11 @@ def test_a_run_is_opened_from_its_folder(whole):
     )
     near = run.snapshot(3.0)
     assert abs(near.time_s - 3.0) <= 2.5 * scales.of(run.section).row_seconds * 1.001  # every fifth row
-    for name in set(runs.FIGURES) - {"toe", "shaking", "water"}:
+    for name in set(runs.FIGURES) - {"toe", "erosion", "shaking", "water"}:
         assert run.figure(name).axes
-    with pytest.raises(runs.RunError, match="the figure toe needs a later stage"):
-        run.figure("toe")
+    for name in ("toe", "erosion", "shaking", "water"):
+        with pytest.raises(runs.RunError, match=f"the figure {name} needs a later stage"):
+            run.figure(name)
     labels = {line.get_label() for ax in run.figure("forces").axes for line in ax.lines}
     assert "$N'_{FB}$  normal on FB" in labels
 
@@ -163,7 +164,7 @@ def test_what_a_run_has_not_is_told(whole, tmp_path):
     run = runs.open_run(whole.folder)
     with pytest.raises(runs.RunError, match="no figure is called 'chains'; give one of force_chains"):
         run.figure("chains")
-    with pytest.raises(runs.RunError, match="give series, walls or breaks"):
+    with pytest.raises(runs.RunError, match="give series, walls, breaks or eroded"):
         run.frame("serie")
 
 

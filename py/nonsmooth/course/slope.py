@@ -10,14 +10,15 @@ Rules:
   mean speed is 0.2 m/s at t0, or comes to that without having been below 0.02 m/s since. The water does not rise, or no
   further; the slope is followed until it rests. What moved it, its weight or something else, says
   :mod:`yade.nonsmooth.studies.slope.verdict`;
-* t0: the dry rest ends, the water begins to rise, and the times of other triggers (:mod:`yade.nonsmooth.course.triggers`) count from here;
+* t0: the dry rest ends, the water begins to rise, and the times of other triggers
+  (:mod:`yade.nonsmooth.course.triggers`) count from here;
 * moving, t2: the mean speed reaches 0.2 m/s: the slope no longer just follows the water. With ``water.hold: motion``
   the table stays where it is from here on, and the solver's tolerance is ``tolerance_moving``, until the mean speed is
   down to a tenth of its maximum; from there it falls with the speed, down to ``tolerance``. A slope that comes to rest
   again without having got going does not count as moving: the table then goes on rising;
-* still: the slope does not move, its water table has stood at one height for 5 s and no other trigger acts: the tolerance is a quarter of
-  ``tolerance``, since nothing but the solver's error is left to move a disk, and over a minute a looser solve breaks a
-  bond or two that bear all they can;
+* still: the slope does not move, its water table has stood at one height for 5 s, and no other trigger or window acts:
+  the tolerance is a quarter of ``tolerance``, since nothing but the solver's error is left to move a disk, and over a
+  minute a looser solve breaks a bond or two that bear all they can;
 * a field of water (lines, files, seepage) has its states at their times since t0, whether the slope moves or not; as
   long as one is to come, the slope is not still, and does not stand;
 * rows and snapshots are of the first steps that end at, or less than half a step before, whole multiples of their
@@ -28,16 +29,17 @@ Rules:
 * end: the mean speed has been below ``rest_fraction`` of its maximum for ``rest_hold`` seconds, or the slope stands and
   nothing is left that could change it, or ``end.time`` has passed. It stands where for 5 s, and for ``rest_hold``
   seconds more, the mean speed has been no more than ``stages.settle.speed_rest``, no bond broke and no other disk got
-  wet, and the water table stays where it is or above all disks; a script that may do more to it says so. While a
-  trigger acts or is to come, neither counts as its end.
+  wet, no window takes disks out any more (:mod:`.erosion`), and the water table stays where it is or above all disks; a
+  script that may do more to it says so. While a trigger acts or is to come, or a window that does not hold takes disks
+  out, neither counts as its end.
 """
 
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, field, replace
 
-from . import triggers
+from . import erosion, triggers
 
 __all__ = [
     "COLLAPSED",
@@ -98,6 +100,10 @@ class State:
     table: float = 0.0  # height of the water table ...
     table_since: float = 0.0  # ... and the time since when it has been there
     water_delay: float = 0.0  # how long the table stood still while the slope moved and came to rest again
+    erosion_taken: dict = field(default_factory=dict)  # {window of the section: its time when it last took disks out}
+    erosion_delay: float = 0.0  # how long those that hold stood still, as water_delay
+    eroded_shift_x: float = 0.0  # m, by which the mass's centre has jumped as disks were taken out ...
+    eroded_shift_y: float = 0.0
     front0: float | None = None
     speed_max: float = 0.0
     speed_before: float = 0.0  # the largest before t0
@@ -169,7 +175,8 @@ def after(state, seen, section, scales):
     if state.rested is None and state.failed_dry is None and state.moving is None:
         if seen.time >= settle.ramp and seen.speed <= settle.speed_rest:
             state = replace(state, rested=seen.time)
-    return {"settle": _settle, "dry": _dry, "water": _water}[state.stage](state, seen, section, scales)
+    made = {"settle": _settle, "dry": _dry, "water": _water}[state.stage](state, seen, section, scales)
+    return erosion.noted(state, made, seen, section)
 
 
 def _settle(state, seen, section, scales):
@@ -213,8 +220,7 @@ def _water(state, seen, section, scales):
     since = (seen.time if s.resting_since is None else s.resting_since) if resting else None
     height = seen.water if rises else 0.0
     s = _quieted(s, seen, section)
-    rested = resting and passed(seen, stages.end.rest_hold, since) and not seen.coming
-    rested = rested and triggers.over(section, loads_since(s), seen.time)
+    rested = resting and passed(seen, stages.end.rest_hold, since) and _load_is_last(s, seen, section)
     over = rested or passed(seen, s.settled + stages.end.time)
     return replace(
         s,
@@ -235,11 +241,17 @@ def _quieted(s, seen, section):
     return replace(s, quiet_since=since, quiet_broken=seen.broken, quiet_wet=seen.wet)
 
 
+def _load_is_last(s, seen, section):
+    """Whether no trigger acts or will, no state of a field of water is to come, and no window may take a disk."""
+    over = triggers.over(section, loads_since(s), seen.time)
+    return over and not seen.coming and not erosion.may_take(s, seen.step, section)
+
+
 def _load_stays(s, seen, section):
-    """Whether no trigger changes the load any more, and no disk gets wet or dry by the water: no state of a field is to
-    come, and a table stays where it is, or above all disks.
+    """Whether the load does not change any more: nothing is to come (:func:`_load_is_last`), and no disk gets wet or dry
+    by the table, as it stays where it is, or above all of them.
     """
-    if seen.coming or not triggers.over(section, loads_since(s), seen.time):
+    if not _load_is_last(s, seen, section):
         return False
     table = water_table(s, section)
     if table is None:
@@ -303,7 +315,8 @@ def care(state, seen, section, scales):
         0.0 if state.moving is None else flowing(seen.speed, state.speed_max),
         state.moving is None
         and seen.time - state.table_since >= scales.still_seconds
-        and not triggers.acting(section, loads_since(state), seen.time),
+        and not triggers.acting(section, loads_since(state), seen.time)
+        and not erosion.acting(state, seen.step, section),
     )
 
 

@@ -10,11 +10,13 @@ an object that has such ``walls``; see :mod:`nonsmooth.measure.ground`. Data tha
 
 from .controls import forces_against_water, speeds, with_and_without
 from .forces import force_chains, forces_against_time
+from .erosion import erosion
 from .law import bond_zone, contact_law, water_forces
 from .markers import markers
 from .moving import animate, record, recording
 from .numerics import energy, solver
 from .profiles import deposit, snapshots
+from .release import releases
 from .runouts import runouts
 from .scene import draw
 from .shaking import shaking
@@ -36,7 +38,9 @@ __all__ = [
     "animate",
     "record",
     "recording",
+    "releases",
     "energy",
+    "erosion",
     "means",
     "runouts",
     "shaking",

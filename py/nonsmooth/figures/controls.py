@@ -5,6 +5,7 @@ its speed with the times that other rules would give.
 import numpy as np
 from matplotlib.lines import Line2D
 
+from ..measure import centroid
 from ..measure.characteristic_times import FASTER, RESTING
 from ..measure.ground import ground_of
 from ..measure.surface import deposit_profile
@@ -22,9 +23,9 @@ LINES = given.cases("(series, t0)", given.SERIES, checks.real(""))
 
 def displacement(series, t0):
     """Time since t0 [s] and way of the centre of mass since then [m], (rows,) each, of the rows from t0 on."""
-    t, x, y = style.need(series, "time_s", "centroid_x_m", "centroid_y_m")
+    t, *_ = style.need(series, "time_s", "centroid_x_m", "centroid_y_m")
     late = t >= t0 - 1e-9
-    t, x, y = t[late], x[late], y[late]
+    t, x, y = (values[late] for values in (t, *centroid.path(series)))
     return t - t0, np.hypot(x - x[0], y - y[0]) if len(t) else t
 
 

@@ -38,8 +38,9 @@ def markers(cases, section, path=None, pdf=False, number=16):
     """What becomes of thin columns of disks that lay across the layers: tilted and bent they show shear, turned over
     with the layers they show folds, scattered they would show mixing.
 
-    ``cases``: list of (label, Snapshot), the first that of the slope at rest, as "t0", "t4", "t5", one panel each;
-    ``section``: a Section; ``number``: of columns, normal to the slope. Layers are pale, lowest darkest.
+    ``cases``: list of (label, Snapshot), the first that of the slope at rest with all of its disks, as "t0", "t4",
+    "t5", one panel each; ``section``: a Section; ``number``: of columns, normal to the slope. Layers are pale, lowest
+    darkest.
     """
     cases, ground = list(cases), ground_of(section)
     if not cases:
@@ -57,7 +58,8 @@ def markers(cases, section, path=None, pdf=False, number=16):
         style.draw_walls(ax, ground, named=("slip", "ground", "backstop"))
         colours = PALE * style.layer_colours(snapshot.layer) + (1 - PALE)
         colours[:, 3] = 1
-        colours[column >= 0] = strong[column[column >= 0]]
+        of = column if getattr(snapshot, "number", None) is None else column[snapshot.number]
+        colours[of >= 0] = strong[of[of >= 0]]
         style.draw_disks(ax, snapshot, colours)
         meaning = style.TIME_NAMES.get(label)
         edge, align = (0.985, "right") if ground.side > 0 else (0.015, "left")

@@ -41,6 +41,8 @@ def energy(series, path=None, times=None, pdf=False, limit=0.02):
         ("energy_bonds_J", "lost on bonds", "purple", (0, (1, 1))),
         ("energy_correction_J", "overlap correction", "grey", (0, (3, 1, 1, 1))),
     )
+    if "energy_eroded_J" in series:
+        lines += (("energy_eroded_J", "left with disks taken out", "purple", "-"),)
     time, _, *values = style.need(series, "time_s", "energy_error_rel", *(name for name, *_ in lines))
     error = balance_error(series)
     values = [v - v[0] for v in values]

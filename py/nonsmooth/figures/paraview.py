@@ -49,8 +49,8 @@ def _write(path, points, cells, point_data=None, cell_data=None):
 @given.takes(snapshot=given_with())
 def write_disks(snapshot, path):
     """One point a disk, with ``radius`` [m] and, where the snapshot has them, ``layer`` (0 lowest), ``velocity`` [m/s],
-    ``speed`` [m/s], ``angle`` [rad], ``wet``, ``released``, ``ever_wet`` and ``weakened`` (on any wall or interface);
-    see :class:`.records.Snapshot`."""
+    ``speed`` [m/s], ``angle`` [rad], ``wet``, ``released``, ``ever_wet``, ``weakened`` (on any wall or interface) and
+    ``number``; see :class:`.records.Snapshot`."""
     s = snapshot
     data = {"radius": s.r}
     if s.layer is not None:
@@ -60,6 +60,8 @@ def write_disks(snapshot, path):
         data["speed"] = np.hypot(s.vx, s.vy)
     if s.angle is not None:
         data["angle"] = s.angle
+    if s.number is not None:
+        data["number"] = s.number
     for name in ("wet", "released", "ever_wet"):
         if getattr(s, name) is not None:
             data[name] = getattr(s, name).astype(np.int8)

@@ -8,6 +8,7 @@ from matplotlib.patches import Patch, Rectangle
 from ..measure.fronts import front
 from ..measure.ground import ground_of
 from ..measure.surface import deposit_profile
+from ..records import in_both
 from . import given, style
 from .style import INK
 
@@ -193,7 +194,8 @@ def deposit(snapshot, initial, walls, path=None, pdf=False):
             f"thickest: {style.length(thickness[k], extent)}", (x[k], surface[k]), xytext=(0, 22), textcoords="offset points",
             ha="center", arrowprops={"arrowstyle": "-", "color": INK, "lw": 0.8}, **note,
         )  # fmt: skip
-    a, b = front(initial, side, layers=ground.mass), front(snapshot, side, layers=ground.mass)
+    both = in_both(initial, snapshot)  # of what has been taken out nothing has come anywhere
+    a, b = (front(one, side, layers=ground.mass) for one in both)
     level = y0 + 0.075 * (y1 - y0)
     for at in (a, b):
         ax.plot([at, at], [level - 0.02 * (y1 - y0), level + 0.16 * (y1 - y0)], color=INK, lw=0.9, ls=":", zorder=7)
@@ -206,10 +208,8 @@ def deposit(snapshot, initial, walls, path=None, pdf=False):
         va="top",
         **note,
     )
-    mass = slice(None) if ground.mass is None else np.isin(snapshot.layer, ground.mass)
-    centres = [
-        np.average(np.column_stack([s.x, s.y])[mass], axis=0, weights=s.r[mass] ** 2) for s in (initial, snapshot)
-    ]
+    mass = slice(None) if ground.mass is None else np.isin(both[0].layer, ground.mass)
+    centres = [np.average(np.column_stack([s.x, s.y])[mass], axis=0, weights=s.r[mass] ** 2) for s in both]
     ax.plot(*centres[0], marker="o", mfc="white", mec=INK, ms=7, mew=1.5, zorder=8)
     ax.plot(*centres[1], marker="o", mfc=INK, mec="white", ms=8, mew=1.2, zorder=8)
     ax.annotate(

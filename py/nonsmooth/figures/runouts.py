@@ -6,6 +6,7 @@ from matplotlib.patches import Patch
 
 from ..measure.fronts import front
 from ..measure.ground import ground_of
+from ..records import in_both
 from . import given, style
 from .style import INK
 
@@ -40,7 +41,7 @@ def runouts(cases, walls, path=None, pdf=False):
         style.frame(ax, *view)
         style.draw_walls(ax, ground, named=None if k == 0 else ())
         style.draw_disks(ax, last, style.layer_colours(last.layer))
-        a, b = (front(s, ground.side, layers=ground.mass) for s in (first, last))
+        a, b = (front(s, ground.side, layers=ground.mass) for s in in_both(first, last))
         for at in (a, b):
             ax.axvline(at, color=INK, lw=0.9, ls=":", zorder=7)
         level = view[2] + 0.06 * (view[3] - view[2])

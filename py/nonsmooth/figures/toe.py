@@ -9,6 +9,7 @@ from matplotlib.lines import Line2D
 
 from ..measure import toe_bands
 from ..measure.ground import ground_of
+from ..records import in_both
 from . import given, style
 
 __all__ = ["toe", "toes"]
@@ -29,6 +30,7 @@ def toe(before, after, section, path=None, pdf=False, friction_deg=None):
     :func:`~nonsmooth.measure.toe_bands.find` finds; dotted, through the middles of the stretches that were looked at:
     Rankine's directions. None where the toe has too few disks.
     """
+    before, after = in_both(before, after)
     chosen, _, _, thickness = toe_bands.toe(before, section)
     if chosen.sum() < toe_bands.FEWEST:
         return None
@@ -53,7 +55,7 @@ def toes(cases, path=None, pdf=False, friction_deg=None):
 
     ``cases``: list of (title, before, after, section), such as one for each packing; the rest as for :func:`toe`.
     """
-    cases = list(cases)
+    cases = [(title, *in_both(before, after), section) for title, before, after, section in cases]
     if not cases:
         raise style.RecordsError("there is no toe to draw; give at least one (title, before, after, section)")
     scale, across = _scale([one[1:] for one in cases]), min(len(cases), ACROSS)

@@ -54,7 +54,7 @@ class _Frames(film.Stage):
         inside = style.draw_walls(self.ax, ground, size=12)
         style.scale_bar(self.ax, 0.975 if ground.side > 0 else 0.145, 0.06, 0.12)
         self._legend()
-        self.disks = style.draw_disks(self.ax, first, style.state_colours(first))
+        self.disks, self.numbers = style.draw_disks(self.ax, first, style.state_colours(first)), _numbers(first)
         self.free_surface = free_surface
         if free_surface is None:
             self.water = style.water_line(self.ax, ground, 0.0)
@@ -111,8 +111,12 @@ class _Frames(film.Stage):
 
     def show(self, snapshot):
         """Draw one snapshot; returns the picture as bytes (RGBA)."""
-        self.disks.set_offsets(np.column_stack([snapshot.x, snapshot.y]))
-        self.disks.set_facecolors(style.state_colours(snapshot))
+        offsets, colours = np.full((len(self.numbers), 2), np.nan), np.zeros((len(self.numbers), 4))
+        there = np.searchsorted(self.numbers, _numbers(snapshot))
+        offsets[there] = np.column_stack([snapshot.x, snapshot.y])
+        colours[there] = style.state_colours(snapshot)
+        self.disks.set_offsets(offsets)  # one that has been taken out since is nowhere
+        self.disks.set_facecolors(colours)
         if self.free_surface is not None:
             self.water.set_data(*style.free_surface(self.free_surface(snapshot.time_s)).T)
         elif self.water is not None:
@@ -127,6 +131,11 @@ class _Frames(film.Stage):
         for cursor in self.cursors:
             cursor.set_xdata([snapshot.time_s, snapshot.time_s])
         return self.picture()
+
+
+def _numbers(snapshot):
+    """Which disks a Snapshot has, rising."""
+    return np.arange(len(snapshot.x)) if snapshot.number is None else snapshot.number
 
 
 def _pixels(size):
@@ -190,7 +199,9 @@ def write_mp4(
         def pictures():
             for done, name in enumerate(paths, start=1):
                 snapshot = _read(name)
-                if len(snapshot.x) != len(sample[0].x):
+                if not np.isin(_numbers(snapshot), _numbers(sample[0])).all() or (
+                    snapshot.number is None and len(snapshot.x) != len(sample[0].x)
+                ):
                     raise RecordsError(
                         f"{name}: {len(snapshot.x)} disks, but {paths[0]} has {len(sample[0].x)}; give snapshots of one run only"
                     )

@@ -4,6 +4,7 @@ Of a slope:
 
 * :mod:`.ground`: walls by their roles, the foot of the slope, where water stands
 * :mod:`.fronts`: how far a mass has come
+* :mod:`.centroid`: the way of its centre
 * :mod:`.travel`: how far beside how deep, the travel angle
 * :mod:`.layers`: whether layers have mixed, and where they are turned over
 * :mod:`.surface`: the surface of a mass and what lies below it

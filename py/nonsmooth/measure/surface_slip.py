@@ -55,16 +55,19 @@ def _across(begin, lower, upper):
     return a[chosen], b[chosen]
 
 
-def displacements(found, begin, x, y) -> dict[str, float]:
+def displacements(found, begin, x, y, numbers=None) -> dict[str, float]:
     """{name: displacement [m], positive down the surface} of :func:`surfaces`, from the Snapshot ``begin`` to centres
-    at ``x``, ``y`` (n,) [m].
+    at ``x``, ``y`` (n,) [m]. ``numbers`` (n,): which disks these are where some are gone, which count no longer.
     """
-    told = {}
+    there = np.arange(len(begin.x)) if numbers is None else numbers
+    told, along = {}, np.full(len(begin.x), np.nan)
     for one in found:
-        along = (x - begin.x) * one.way[0] + (y - begin.y) * one.way[1]
+        along[there] = (x - begin.x[there]) * one.way[0] + (y - begin.y[there]) * one.way[1]
         told[one.name] = _mean(along, one.above) - _mean(along, one.below)
     return told
 
 
 def _mean(values, chosen):
-    return float(np.mean(values[chosen])) if len(chosen) else 0.0
+    values = values[chosen]
+    values = values[~np.isnan(values)]
+    return float(np.mean(values)) if len(values) else 0.0

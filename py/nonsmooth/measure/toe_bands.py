@@ -13,6 +13,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from ..records import in_both
 from . import bands
 from .ground import ground_of
 
@@ -74,6 +75,7 @@ def find(before, after, section):
     ``before``, ``after``: Snapshots with the same disks; ``section``: a Section. (None, None) where the toe has fewer
     than :data:`FEWEST` disks.
     """
+    before, after = in_both(before, after)
     return tuple(_band(before, after, section, reach, sign) for reach, sign in zip(REACH, (-1, 1)))
 
 

@@ -10,8 +10,8 @@ and what to do.
 from .breaks import BREAK_COLUMNS, read_breaks, write_breaks
 from .columns import LOSSES, OWN, Column, column, declared, own_columns, stem
 from .error import RecordsError
-from .series import SeriesWriter, broken_bonds, kept, read_series, read_walls, since_settled
-from .snapshots import Snapshot, read_snapshot, write_snapshot
+from .series import SeriesWriter, broken_bonds, kept, read_eroded, read_series, read_walls, since_settled
+from .snapshots import Snapshot, in_both, read_snapshot, write_snapshot
 
 __all__ = [
     "BREAK_COLUMNS",
@@ -24,9 +24,11 @@ __all__ = [
     "broken_bonds",
     "column",
     "declared",
+    "in_both",
     "kept",
     "own_columns",
     "read_breaks",
+    "read_eroded",
     "read_series",
     "read_snapshot",
     "read_walls",

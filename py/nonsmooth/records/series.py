@@ -15,7 +15,7 @@ from .breaks import BREAK_MODES
 from .columns import STEP, Column
 from .error import RecordsError
 
-__all__ = ["SeriesWriter", "broken_bonds", "kept", "read_series", "read_walls", "since_settled"]
+__all__ = ["SeriesWriter", "broken_bonds", "kept", "read_eroded", "read_series", "read_walls", "since_settled"]
 
 
 def _encode(column, value):
@@ -284,22 +284,43 @@ def read_walls(path):
 
     A half-written last line is left out. Raises :class:`RecordsError` if the file is missing or damaged.
     """
+    return _with_words(path, ("wall",), "the forces on walls")
+
+
+def read_eroded(path):
+    """Read ``eroded.csv``, the ledger of disks that were taken out of a slope: dict from column name to an array of
+    shape (disks,): words for ``window`` and ``layer``, int64 for ``step`` and ``disk``, float64 for the others.
+
+    A half-written last line is left out. Raises :class:`RecordsError` if the file is missing or damaged.
+    """
+    return _with_words(path, ("window", "layer"), "the ledger of disks that were taken out", ("step", "disk"))
+
+
+def _with_words(path, words, about, counts=()):
+    """A table with several rows a step, whose third column is the first that holds ``words``; ``counts``: columns of
+    whole numbers.
+    """
     path = Path(checks.path("path", path, RecordsError, "give the path of a file of a run"))
     try:
         text = path.read_bytes().decode()
         header, *rows = csv.reader(text[: text.rfind("\n") + 1].splitlines())
-        if header[:3] != ["step", "time_s", "wall"] or any(len(row) != len(header) for row in rows):
+        if (
+            header[:3] != ["step", "time_s", words[0]]
+            or not {*words, *counts} <= {*header}
+            or any(len(row) != len(header) for row in rows)
+        ):
             raise ValueError("wrong columns")
         columns = dict(zip(header, zip(*rows) if rows else [()] * len(header)))
-        return {
+        found = {
             name: np.array(cells, dtype=str)
-            if name == "wall"
+            if name in words
             else np.array([float(c) if c else math.nan for c in cells])
             for name, cells in columns.items()
         }
+        return found | {name: np.array(list(map(int, columns[name])), np.int64) for name in counts}
     except (OSError, ValueError) as error:
         raise RecordsError(
-            f"{path}: cannot be read as the forces on walls ({getattr(error, 'strerror', None) or error}); check the folder given"
+            f"{path}: cannot be read as {about} ({getattr(error, 'strerror', None) or error}); check the folder given"
         ) from None
 
 

@@ -2,7 +2,7 @@
 
 import zipfile
 import zlib
-from dataclasses import dataclass, fields
+from dataclasses import dataclass, fields, replace
 from pathlib import Path
 from typing import Optional
 
@@ -13,7 +13,7 @@ from ..system.whole_files import write_arrays
 from . import given
 from .error import RecordsError
 
-__all__ = ["Snapshot", "checked", "given_with", "lacking", "read_snapshot", "read_with", "write_snapshot"]
+__all__ = ["Snapshot", "checked", "given_with", "in_both", "lacking", "read_snapshot", "read_with", "write_snapshot"]
 
 
 @dataclass
@@ -23,14 +23,17 @@ class Snapshot:
     Scalars: ``time_s`` [s], ``step``, ``water_m`` [m] (height of the water table above its plane).
     Disks, shape (N,): ``x``, ``y``, ``r`` [m], ``angle`` [rad], ``vx``, ``vy`` [m/s], ``layer`` (int, 0 lowest), and
     bool: ``wet`` (water acts on it now),
-    ``released`` (was wet, and has moved so far downslope that water acts on it no longer), ``ever_wet``. And
+    ``released`` (was wet, and water acts on it no longer, by its way downslope or by dilatancy), ``ever_wet``. And
     ``weakened``, bool of shape (N, W): the slip along each of the W walls and interfaces that weaken has passed the
-    critical slip D_c, in the order of :attr:`.section.Section.weakening`. Files of earlier versions tell neither
+    critical slip D_c, in the order of :attr:`.section.Section.weakening`. Where local dilatancy releases the water,
+    ``released_share``, from 0 to 1: the share of the pressure that acts no longer. Files of earlier versions tell neither
     ``ever_wet`` nor
     ``weakened``, and their ``released`` has disks that never were wet too.
     Contacts, shape (C,): ``ci``, ``cj`` disk indices (``cj = -1 - k`` for wall number k), ``cn``, ``ct`` normal and
     tangential force [N/m], compression positive, ``cbonded`` (bool), ``cx``, ``cy`` contact point [m]. They may all
     be left out (C = 0), as for the frames of a video.
+    ``number``, int (N,), rising: which disk each is, of those that a run has begun with, where some have been taken out
+    since; None where all are there. See :func:`in_both`.
     ``walls``, shape (W, 2): of walls along an axis that move, in the order of their numbers: 0 where x, 1 where y is
     constant, and its value [m].
     """
@@ -55,8 +58,19 @@ class Snapshot:
     cy: Optional[np.ndarray] = None
     water_m: Optional[float] = None
     ever_wet: Optional[np.ndarray] = None
+    released_share: Optional[np.ndarray] = None
     weakened: Optional[np.ndarray] = None
     walls: Optional[np.ndarray] = None
+    number: Optional[np.ndarray] = None
+
+    def chosen(self, rows):
+        """The Snapshot of some of its disks, ``rows``: bool (N,), or their numbers in these arrays; without
+        contacts.
+        """
+        kept = {name: value[rows] for name in _DISKS if (value := getattr(self, name)) is not None}
+        return replace(
+            self, **kept, **{name: value[:0] for name in _CONTACTS if (value := getattr(self, name)) is not None}
+        )
 
 
 _SCALARS = ("time_s", "step", "water_m")
@@ -65,7 +79,7 @@ _NEEDED = ("time_s", "step", "x", "y", "r")
 _NAMES = tuple(f.name for f in fields(Snapshot))
 _DISKS = tuple(name for name in _NAMES if name not in (*_SCALARS, *_CONTACTS, "walls"))
 _SINGLE = ("x", "y", "r", "angle", "vx", "vy")  # in single precision where a file is compact
-_KINDS = dict.fromkeys(("layer", "ci", "cj"), np.int64) | dict.fromkeys(
+_KINDS = dict.fromkeys(("layer", "ci", "cj", "number"), np.int64) | dict.fromkeys(
     ("wet", "released", "ever_wet", "weakened", "cbonded"), bool
 )
 
@@ -127,6 +141,8 @@ def checked(arrays, source):
         raise wrong(f"radius of disk {int(np.argmin(found['r']))} is {found['r'].min()}", "radii are positive")
     if ((found["ci"] < 0) | (found["ci"] >= count) | (found["cj"] >= count)).any():
         raise wrong(f"a contact names a disk beyond the {count} there are", "check how indices are made")
+    if "number" in found and (count and found["number"][0] < 0 or (np.diff(found["number"]) <= 0).any()):
+        raise wrong("number does not rise from 0 or more", "give the number of each disk that is left, in their order")
     alone = np.flatnonzero(found["ci"] == found["cj"])
     if len(alone):
         raise wrong(
@@ -153,6 +169,18 @@ def write_snapshot(path, compact=False, **arrays):
     # else not compressed: a fifth of the room is not worth most of the time, as coordinates hardly shrink
     write_arrays(path, compressed=compact, **told)
     return path
+
+
+def in_both(one, other):
+    """Two Snapshots of a run as those of the disks that are in both, without contacts, so that their rows are the same
+    disks; themselves where neither has lost any.
+    """
+    first, second = (getattr(s, "number", None) for s in (one, other))
+    if first is None and second is None:
+        return one, other
+    first, second = (np.arange(len(s.x)) if n is None else n for s, n in ((one, first), (other, second)))
+    _, rows, others = np.intersect1d(first, second, assume_unique=True, return_indices=True)
+    return one.chosen(rows), other.chosen(others)
 
 
 def lacking(snapshot, *names):

@@ -134,8 +134,8 @@ class StudyRun(Opened):
 
     #: What was run, in words.
     kind = None
-    #: The columns that a series of this kind may have: {name: Column}.
-    COLUMNS = {}
+    #: The columns that each series of this kind has, and those that it has where they are asked for: {name: Column}.
+    COLUMNS, FURTHER = {}, {}
 
     @cached_property
     def series(self) -> dict:
@@ -145,7 +145,8 @@ class StudyRun(Opened):
     @property
     def columns(self) -> dict:
         """What the columns of the series are: {name: records.Column}."""
-        return {name: self.COLUMNS[records.stem(name)]._replace(name=name) for name in self.series}
+        known = self.COLUMNS | self.FURTHER
+        return {name: known[records.stem(name)]._replace(name=name) for name in self.series}
 
     @cached_property
     def breaks(self) -> dict:
@@ -179,10 +180,10 @@ class StudyRun(Opened):
 class SlopeRun(StudyRun):
     """A run of a slope."""
 
-    kind, COLUMNS = "slope", slope_columns.COLUMNS
+    kind, COLUMNS, FURTHER = "slope", slope_columns.COLUMNS, slope_columns.FURTHER
     #: The columns of ``walls.csv``: {name: Column}.
     WALL_COLUMNS = slope_columns.WALL_COLUMNS
-    TABLES = ("series", "walls", "breaks")
+    TABLES = ("series", "walls", "breaks", "eroded")
 
     @cached_property
     def section(self):
@@ -198,6 +199,13 @@ class SlopeRun(StudyRun):
     def walls(self) -> dict:
         """Columns of ``walls.csv``: {name: array (rows,)}, a row for each wall and time."""
         return records.read_walls(self._file("walls.csv"))
+
+    @cached_property
+    def eroded(self) -> dict:
+        """Columns of ``eroded.csv``: {name: array (disks,)}, a row for each disk that was taken out. Raises RunError
+        where the section has no windows that take some.
+        """
+        return records.read_eroded(self._file(results.LEDGER))
 
     @property
     def snapshots(self) -> dict:
@@ -224,7 +232,7 @@ class SlopeRun(StudyRun):
         found = self._drawing.figure(name)
         if found is None:
             raise RunError(
-                f"{self.folder}: the figure {name} needs a later stage, a wall or more disks than this run has; continue the run with --resume if it has not ended"
+                f"{self.folder}: the figure {name} needs a later stage, a wall, windows or more disks than this run has; continue the run with --resume if it has not ended"
             )
         return found
 

@@ -2,8 +2,10 @@
 from . import (
     between,
     course,
+    dilatancy,
     drawing,
     engines,
+    erosion,
     impacts,
     laboratory,
     law,
@@ -29,12 +31,14 @@ MUTANTS = (
     + walls.MUTANTS
     + course.MUTANTS
     + section_water.MUTANTS
+    + dilatancy.MUTANTS
     + results.MUTANTS
     + shaking.MUTANTS
     + safety.MUTANTS
     + laboratory.MUTANTS
     + drawing.MUTANTS
     + water.MUTANTS
+    + erosion.MUTANTS
 )
 
 #: Mutants that no test sees, and why that is left so: {name: reason}.

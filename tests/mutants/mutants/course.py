@@ -157,7 +157,7 @@ MUTANTS = (
            "test_repeated_runs.py::test_a_soft_run_begins_with_a_packing_of_ones_own_and_rows_of_the_rigid_one"),
     mutant("begin-damping", COURSE, "damping_moving=damping_moving, field=field)", "field=field)", "a slope that moves keeps the damping of one at rest",
            "test_repeated_runs.py::test_a_soft_run_begins_with_a_packing_of_ones_own_and_rows_of_the_rigid_one"),
-    mutant("experiment-brought", MONITOR, 'brought = 0.0 if state.stage == "settle" else abs(e.broughtEnergy)', "brought = 0.0", "nobody sees that a script shook the slope",
+    mutant("experiment-brought", MONITOR, 'brought = 0.0 if state.stage == "settle" else abs(self._brought(e))', "brought = 0.0", "nobody sees that a script shook the slope",
            "test_whole_verdicts.py::test_a_slope_that_a_script_shook_has_not_failed_dry"),
     mutant("verdict-slid", PY + "studies/slope/verdict.py", "ways[-1] < far:", "True:", "a slope that slid and was held has stood",
            "plain:test_verdict.py::test_a_slope_that_slid_and_was_held_has_not_stood"),

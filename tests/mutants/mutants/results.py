@@ -62,7 +62,7 @@ MUTANTS = (
            "t1 and t2 have each other's names", "plain:test_figures_slope.py::test_each_characteristic_time_says_what_it_marks"),
     # ---- walls, interfaces, layers
     mutant("wall-pieces", WALLS, "math.fsum(losses[i] for i in ids if i < len(losses))", "losses[ids[0]]", "of a wall the first piece alone counts", ROWS + "::test_a_wall_has_the_sum_of_all_its_pieces"),
-    mutant("wall-means", WALLS, "sum(m.meanSlip() * n for m, n in zip(weak, counts)) / touched", "sum(m.meanSlip() for m in weak) / len(weak)", "the mean slip is the mean of walls' means",
+    mutant("wall-means", WALLS, "sum(one.mean * one.touched for one in of_each) / touched", "sum(one.mean for one in of_each) / len(weak)", "the mean slip is the mean of walls' means",
            ROWS + "::test_the_slip_of_several_walls_is_the_mean_over_their_disks"),
     mutant("wall-shared", WALLS, "role: forces[names[0] if len(names) == 1 else (role,)] if names", "role: forces[names[0]] if names", "of several walls of a role the first alone counts",
            ROWS + "::test_a_wall_has_the_sum_of_all_its_pieces"),

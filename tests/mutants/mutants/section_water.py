@@ -20,7 +20,7 @@ MUTANTS = (
     mutant("water-mirror", LINES, "[[0.0 - x, y] for x, y in reversed(line[\"points\"])]", "[[0.0 - x, y] for x, y in line[\"points\"]]", "mirrored lines run from right to left",
            KEYS + "::test_a_mirrored_slope_has_mirrored_lines"),
     mutant("water-mirror-file", LINES, 'not raw["field"].get("mirrored", False)', "True", "a field that is mirrored twice is mirrored", KEYS + "::test_a_mirrored_and_a_larger_field"),
-    mutant("water-dip", STATES, 'one["dip"] = 0.0 - one["dip"]', "pass", "bedding of a mirrored slope dips the old way", FLOW + "::test_a_slope_that_is_mirrored_has_mirrored_seepage"),
+    mutant("states-dip", STATES, 'one["dip"] = 0.0 - one["dip"]', "pass", "bedding of a mirrored slope dips the old way", FLOW + "::test_a_slope_that_is_mirrored_has_mirrored_seepage"),
     mutant("water-first", STATES, "if not one.get(\"drained\", True) and k == 0:", "if False:", "a drawdown begins from nothing", FLOW + "::test_what_is_refused_when_a_section_is_read"),
     # ---- the field
     mutant("water-from-dry", FIELD, "if found.times[0] <= 0:", "if True:", "the first state's pressures come at once", KEYS + "::test_pressures_grow_from_nothing_until_the_first_state"),
@@ -35,7 +35,8 @@ MUTANTS = (
     # ---- a run
     mutant("water-begin", RULES, "None if section.water_field is None or state.water_hold is not None else state.t0", "None if section.water_field is None else state.t0",
            "a slope that failed dry gets wet", RUN + "::test_a_slope_that_fails_dry_gets_no_water"),
-    mutant("water-coming", RULES, "if seen.coming or not triggers", "if not triggers", "a slope stands before the last state of its water", RUN + "::test_a_slope_stands_only_after_the_last_state"),
+    mutant("water-coming", RULES, "return over and not seen.coming and", "return over and", "a slope stands before the last state of its water",
+           "plain:test_course.py::test_while_states_of_a_field_of_water_are_to_come_it_neither_stands_nor_is_still"),
     mutant("water-still", RULES, "if height == s.table and not seen.coming else", "if height == s.table else", "a slope is still while its water rises", RUN + "::test_a_slope_stands_only_after_the_last_state"),
     mutant("water-kept", COURSE, "field_files.read(Path(folder) / of_section.FILE)", "of_section.field(section)", "a resumed run wants the file again", RUN + "::test_a_run_does_not_need_the_file_of_its_field_again"),
     mutant("water-heads", "py/nonsmooth/measure/pressure_heads.py", "up)[piece] + share", "0 * up)[piece] + share", "heads are read below the disks", RUN + "::test_the_run_tells_of_the_pressure_on_the_slip_surface"),

@@ -97,7 +97,8 @@ def test_the_module_needs_no_yade():
         for node in ast.walk(ast.parse(Path(rules.__file__).read_text()))
         if isinstance(node, ast.ImportFrom)
     }
-    assert imported == {"__future__", "math", "dataclasses", "triggers"}
+    # of the room, by the first of their names
+    assert imported == {"__future__", "math", "dataclasses", "erosion"}
 
 
 # ---- settling and dry rest --------------------------------------------------------------------------
@@ -410,6 +411,13 @@ def test_a_slope_that_stands_under_its_last_load_ends_its_run(hold, rate, points
 
 def test_a_slope_without_water_that_stands_ends_its_run():
     assert play(slope(water=False), steps(), also=standing())[-1].time == close(1.6 + 10.0)
+
+
+def test_while_states_of_a_field_of_water_are_to_come_it_neither_stands_nor_is_still():
+    rows = play(slope(water=False), steps(), also=standing(coming=lambda t: t < 20.0))
+    assert rows[-1].time == close(20.0 + 10.0)
+    still = [row.time for row in rows if row.still]
+    assert still[0] == close(19.9 + 5.0)  # the last row that saw one was that before
 
 
 # what goes on until 9 s

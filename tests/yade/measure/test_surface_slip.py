@@ -121,3 +121,16 @@ def test_a_surface_that_nothing_touched_has_no_displacement():
     begin = snapshot(ci=np.zeros(0, int), cj=np.zeros(0, int))
     found = surface_slip.surfaces(made, begin)
     assert surface_slip.displacements(found, begin, begin.x + 1, begin.y) == {"plane": 0.0, "joint": 0.0}
+
+
+def test_a_disk_that_is_gone_counts_no_longer():
+    """Disk 1, which was on the plane, and disk 5 are gone: the plane's is the way of disk 0, and of nobody at last."""
+    made, way = two_layers()
+    begin = snapshot()
+    found, along = surface_slip.surfaces(made, begin), np.array([1.0, 5.0, 2.0, 7.0, 4.0, 9.0])
+    left = np.array([0, 2, 3, 4])
+    x, y = (begin.x + along * way[0])[left], (begin.y + along * way[1])[left]
+    told = surface_slip.displacements(found, begin, x, y, left)
+    assert told["plane"] == pytest.approx(1.0) and told["joint"] == pytest.approx(5.5 - 2.0)
+    last = surface_slip.displacements(found, begin, x[1:], y[1:], left[1:])
+    assert last["plane"] == 0.0 and last["joint"] == told["joint"]

@@ -22,6 +22,7 @@ from yade.nonsmooth import experiment, packing, records, section
 from yade.nonsmooth.measure import toe
 from yade.nonsmooth.model import rocks
 from yade.nonsmooth.studies.slope import results, slope
+from yade.nonsmooth.studies.slope.water_release import WaterRelease
 from yade.nonsmooth.water import field_files, of_section
 from yade.nonsmooth.water.fields import MeshField
 from yade.nonsmooth.water.mesh import grid
@@ -283,6 +284,18 @@ def pressure(m, place=(-10.0, 3.0), time=0.0):
 
 OF_TABLE = {(*ROCK,): {"cohesion": 2e3, "friction_angle": 34.0, "density": 2500.0}}
 
+
+def window(**keys):
+    """Changes that give the block's slope a window which takes disks out, with these values."""
+    one = {"name": "cut", "vertices": [[0.0, 0.0], [3.0, 0.0], [3.0, 3.0], [0.0, 3.0]], "begin": 0.1}
+    return {("erosion",): [one | keys]}
+
+
+def took(time, *points):
+    """Whether the window takes points at a time [s since t0]."""
+    return lambda m: m.section.erosion[0].takes(*np.transpose(points), time).tolist()
+
+
 #: key: changes, where they are found, and what is found there; a list where a key acts in several places or takes
 #: several kinds of values. The last item, where there is one, is how far the slope is run [s], None: to its end.
 WHERE = {
@@ -357,6 +370,29 @@ WHERE = {
         lambda m: m.section.disk_areas()[1] / m.section.layers[1].area,
         pytest.approx(0.69, abs=0.01),
     ),
+    # test_erosion_windows and test_eroding follow them further
+    ("erosion", "*", "name"): (window(name="river"), lambda m: m.section.erosion[0].name, "river"),
+    ("erosion", "*", "vertices"): (window(vertices=[[0, 0], [3, 0], [3, 3]]), took(1, (2, 1), (1, 2)), [True, False]),
+    ("erosion", "*", "begin"): (window(begin=0.6), lambda m: m.section.erosion[0].begin, 0.6),
+    ("erosion", "*", "end"): (window(end=0.3), lambda m: m.section.erosion[0].end, 0.3),
+    ("erosion", "*", "velocity"): (window(end=3, velocity=[2, -1]), took(1.1, (2.5, -0.5), (1, 1)), [True, False]),
+    ("erosion", "*", "path"): (
+        window(end=3, path=[[0, 0, 0], [1, 4, 0]]),
+        took(0.5, (3.5, 1), (1.5, 1)),
+        [True, False],
+    ),
+    ("erosion", "*", "opening", "time"): (window(opening={"time": 0.4}), took(0.3, (1, 2.5), (1, 0.5)), [True, False]),
+    ("erosion", "*", "opening", "direction"): (
+        window(opening={"time": 0.4, "direction": [1, 0]}),
+        took(0.3, (0.5, 1), (2.5, 1)),
+        [True, False],
+    ),
+    ("erosion", "*", "layers"): (
+        window(layers=["L2"]),
+        lambda m: m.section.erosion[0].of_layers(m.section).tolist(),
+        [False, True],
+    ),
+    ("erosion", "*", "hold"): (window(hold="never"), lambda m: m.section.erosion[0].hold, "never"),
     ("interfaces", "*", "name"): (
         {**BETWEEN, ("interfaces",): [{**BETWEEN[("interfaces",)][0], "name": "joint 7"}]},
         lambda m: m.section.interfaces[0].name,
@@ -786,6 +822,27 @@ WHERE = {
         ({("water", "release_distance"): 0.25}, lambda m: m.built.water.releaseDistance, 0.25),
         ({("water", "release_distance"): "critical_slip"}, lambda m: m.built.water.releaseDistance, 50.0),
     ],
+    ("water", "release", "by"): [
+        ({("water", "release"): {"by": "dilatancy"}}, lambda m: m.built.water.releaseDistance, math.inf),
+        ({("water", "release"): {"by": "slip_or_dilatancy"}}, lambda m: m.built.water.releaseDistance, 0.5),
+        ({("water", "release"): {"by": "slip"}}, lambda m: m.built.water.releaseDistance, 0.5),
+    ],
+    ("water", "release", "dilation"): (
+        {("water", "release"): {"by": "dilatancy", "dilation": 0.05}},
+        lambda m: WaterRelease(m.built).rule.dilation,
+        0.05,
+    ),
+    # d² of these disks has the mean 1 · 2
+    ("water", "release", "over"): (
+        {("water", "release"): {"by": "dilatancy", "over": 2}},
+        lambda m: WaterRelease(m.built).reach,
+        pytest.approx(2 * math.sqrt(2)),
+    ),
+    ("water", "release", "drainage_time"): (
+        {("water", "release"): {"by": "dilatancy", "drainage_time": 7}},
+        lambda m: WaterRelease(m.built).rule.drainage_time,
+        7.0,
+    ),
     **{
         ("shaking", key): (
             {("shaking",): SHAKEN | change},

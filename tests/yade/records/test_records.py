@@ -233,6 +233,8 @@ def test_all_losses_are_columns():
     [
         ("studies.slope.columns", "COLUMNS"),
         ("studies.slope.columns", "WALL_COLUMNS"),
+        ("studies.slope.columns", "ERODING"),
+        ("studies.slope.columns", "LEDGER_COLUMNS"),
         ("studies.laboratory.biaxial_test", "COLUMNS"),
         ("studies.laboratory.tension_test", "COLUMNS"),
         ("studies.laboratory.wall_shear", "COLUMNS"),
@@ -320,6 +322,49 @@ def test_what_a_study_has_not_is_left_out_and_asked_for_by_what_needs_it(tmp_pat
     rule, remedy = synthetic.load("records.snapshots").given_with("layer", "wet")
     assert not rule(found) and "a Snapshot that has layer, wet" in remedy
     assert rule(records.read_snapshot(records.write_snapshot(tmp_path / "c.npz", **disks, layer=[0, 1], wet=[1, 0])))
+
+
+def test_a_snapshot_tells_which_disks_are_left(tmp_path, arrays):
+    number = np.flatnonzero(np.arange(len(arrays["x"])) % 3 > 0)
+    disks = {k: v[number] for k, v in arrays.items() if np.shape(v)[:1] == np.shape(arrays["x"]) and k[0] != "c"}
+    told = {"time_s": 31.0, "step": 9, "water_m": 1.0, **disks, "number": number}
+    left = records.read_snapshot(records.write_snapshot(tmp_path / "a.npz", **told))
+    assert left.number.dtype == np.int64 and np.array_equal(left.number, number)
+    for wrong in (number[::-1], number - number[0] - 1, number * 0):
+        with pytest.raises(RecordsError, match="number does not rise from 0 or more"):
+            records.write_snapshot(tmp_path / "b.npz", **told | {"number": wrong})
+    whole = records.read_snapshot(records.write_snapshot(tmp_path / "c.npz", **arrays))
+    for one, other in (records.in_both(whole, left), reversed(records.in_both(left, whole))):
+        assert np.array_equal(one.x, other.x) and np.array_equal(one.x, arrays["x"][number])
+        assert np.array_equal(one.weakened, other.weakened) and len(one.ci) == len(other.ci) == 0
+        assert (one.time_s, other.time_s) == (whole.time_s, 31.0) and np.array_equal(one.layer, other.layer)
+    fewer = left.chosen(left.number % 2 == 0)
+    one, other = records.in_both(left, fewer)
+    assert np.array_equal(one.number, other.number) and (one.number % 2 == 0).all() and len(one.x) == len(fewer.x)
+    assert records.in_both(whole, whole) == (whole, whole)
+
+
+def test_a_ledger_comes_back_with_its_words_and_whole_numbers(tmp_path):
+    columns = synthetic.load("studies.slope.columns").LEDGER_COLUMNS
+    rows = [
+        {name: 0.1 * k for name in columns} | {"step": 7, "window": "a, b", "layer": "top", "disk": 2**40 - k}
+        for k in (0, 1)
+    ]
+    with records.SeriesWriter(tmp_path / "eroded.csv", columns) as ledger:
+        assert len(records.read_eroded(tmp_path / "eroded.csv")["disk"]) == 0
+        ledger.write(*rows)
+    found = records.read_eroded(tmp_path / "eroded.csv")
+    assert list(found) == list(columns) and found["window"].tolist() == ["a, b"] * 2
+    assert found["disk"].dtype == found["step"].dtype == np.int64 and found["disk"].tolist() == [2**40, 2**40 - 1]
+    assert found["mass_kg_per_m"].tolist() == [0.0, 0.1]
+    with open(tmp_path / "eroded.csv", "a") as file:
+        file.write("8,0.2,a")  # half-written
+    assert len(records.read_eroded(tmp_path / "eroded.csv")["disk"]) == 2
+    (tmp_path / "eroded.csv").write_text("step,time_s,window\n1,0.1,a\n")
+    with pytest.raises(RecordsError, match="cannot be read as the ledger of disks that were taken out .wrong columns"):
+        records.read_eroded(tmp_path / "eroded.csv")
+    with pytest.raises(RecordsError, match="No such file"):
+        records.read_eroded(tmp_path / "none.csv")
 
 
 def test_a_refused_snapshot_leaves_the_old_file(tmp_path, arrays):

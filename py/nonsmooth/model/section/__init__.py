@@ -6,6 +6,7 @@ thick), x to the right, y up. The format is explained in `sections/jiufengershan
 slope of Taboada and Estrada (2009), sections 5 and 6.
 """
 
+from .erosion import Window
 from .loading import block, load, of, shipped
 from .parts import (
     Disks,
@@ -40,6 +41,7 @@ __all__ = [
     "Stages",
     "Wall",
     "Water",
+    "Window",
     "block",
     "load",
     "of",

@@ -10,10 +10,12 @@ from .. import geometry, rocks, roles
 from . import (
     checks as section_checks,
     defaults as section_defaults,
+    erosion,
     shaking as section_shaking,
     units as section_units,
     values as section_values,
     water as section_water,
+    water_release,
 )
 from .section import Section
 from .parts import (
@@ -100,6 +102,7 @@ def build(document, source: str) -> Section:
             release = section_defaults.release_distance(section.area)
             section = dataclasses.replace(section, water=dataclasses.replace(section.water, release_distance=release))
         section_checks.check_release(section, document)
+    section = dataclasses.replace(section, erosion=erosion.windows(section, document))
     section = section_values.keep(section, given)
     return section.with_disks(size["count"]) if "count" in size else section
 
@@ -216,4 +219,5 @@ def _water(raw: dict, section: Section, document) -> Water:
         float(table.get("rate", 0.0)),
         raw["release_distance"] if isinstance(raw["release_distance"], str) else float(raw["release_distance"]),
         wall.name if wall else None,
+        water_release.read(raw, document),
     )

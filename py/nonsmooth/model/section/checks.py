@@ -8,6 +8,7 @@ import numpy as np
 from shapely.geometry import LineString, MultiPoint
 
 from .. import geometry, rocks
+from . import erosion
 from .section import Section
 from .parts import Layer, Wall, points_of
 
@@ -110,14 +111,14 @@ def check_release(section: Section, document) -> None:
 
 def notes(section: Section) -> list[str]:
     """Sentences on what is allowed, and may not be meant: a release from water by another distance than the critical
-    slip, where the paper has one for both; water that runs up the slope; and what materials that are asked for by
-    cohesion and angle of friction are made of, with what else they depend on."""
-    return [*_release_notes(section), *_water_notes(section), *_rock_notes(section)]
+    slip, where the paper has one for both; water that runs up the slope; windows that meet no layer; and what
+    materials that are asked for by cohesion and angle of friction are made of, with what else they depend on."""
+    return [*_release_notes(section), *_water_notes(section), *erosion.notes(section), *_rock_notes(section)]
 
 
 def _release_notes(section):
     slips, release = section.critical_slips, section.release_distance
-    if release is None or not slips or release in slips.values():
+    if release is None or math.isinf(release) or not slips or release in slips.values():
         return
     listed = ", ".join(f"{value:g} m ({name})" for name, value in slips.items())
     yield (

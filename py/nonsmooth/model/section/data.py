@@ -9,7 +9,7 @@ import dataclasses
 import yaml
 
 from ...system.whole_files import write_atomically
-from . import shaking as section_shaking, water as section_water
+from . import erosion, shaking as section_shaking, water as section_water, water_release
 
 __all__ = ["FILE", "material", "plain", "write"]
 
@@ -73,6 +73,8 @@ def plain(section) -> dict:
         },
         "numerics": {k: v for k, v in dataclasses.asdict(section.numerics).items() if v is not None},
     }
+    if section.erosion:
+        data["erosion"] = [erosion.plain(window) for window in section.erosion]
     if section.unusual:
         data["unusual"] = list(section.unusual)
     if not section.interfaces:
@@ -94,6 +96,7 @@ def plain(section) -> dict:
             "table": table,
             "release_distance": water.release_distance,
         }
+        data["water"] |= water_release.plain(water.release)
     if section.shaking is not None:
         data["shaking"] = section_shaking.plain(section.shaking)
     return data

@@ -6,20 +6,23 @@ import dataclasses
 from dataclasses import dataclass
 from typing import ClassVar
 
+from .parts import Release
+
 __all__ = ["FieldWater", "rising"]
 
 
 @dataclass(frozen=True)
 class FieldWater:
     """Water with a pressure of its own at each place: `unit_weight` γ_w [N/m³]; `volume`: "disk" or "bulk", on which
-    −∇p acts; `release_distance`: as of :class:`.parts.Water`; `outside`: "refuse" a field that does not cover the
-    layers, or take it for "dry" there.
+    −∇p acts; `release_distance`, `release`: as of :class:`.parts.Water`; `outside`: "refuse" a field that does not
+    cover the layers, or take it for "dry" there.
     """
 
     unit_weight: float
     volume: str
     release_distance: str | float
     outside: str
+    release: Release | None
 
     wall: ClassVar[None] = None  # of a plane, as of parts.Water
     rate: ClassVar[float] = 0.0

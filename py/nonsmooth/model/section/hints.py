@@ -116,9 +116,16 @@ HINTS = (
         "what stands in the way is a wall or a layer with role: obstacle, whose forces are in walls.csv; anchors, nets and nails are not possible",
     ),
     Hint(
-        "excavation and construction",
-        "excavation excavate cut construction fill undercut erosion_rate",
-        "a section does not change its shape: let a script erase bodies while the slope runs (Experiment.attach)",
+        "excavation and erosion",
+        "excavation excavations excavate cut cuts undercut undercutting erosion_rate toe_erosion foot_erosion scour "
+        "incision",
+        "give `erosion`, a list of windows that take disks out of the running slope: {name, vertices, begin}, with "
+        "`end` and `velocity` for one that moves, `opening` for one that is dug",
+    ),
+    Hint(
+        "construction",
+        "construction fill fills embankment berm",
+        "a section gets no disks while it runs: give what is to be built as a layer from the beginning",
     ),
     Hint(
         "the third dimension",

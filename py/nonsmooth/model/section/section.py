@@ -15,6 +15,7 @@ import numpy as np
 from ...system import checks
 from .. import free_surface, geometry, roles, stacks
 from . import data as section_data, values as section_values
+from .erosion import Window
 from .field_water import FieldWater
 from .parts import Disks, Envelope, Interface, Layer, Material, Numerics, Stages, Wall, Water, normal_of
 from .reader import SectionError
@@ -32,9 +33,10 @@ MOST_DISKS = 10_000_000  # what asks for more is a slip of the pen: a million ta
 @dataclass(frozen=True)
 class Section:
     """A checked section. `pressed`: its packing is pressed, see :mod:`.slope_packing`; `unusual`: keys of values that
-    are meant, see :mod:`.section_units`; `source`: file read; `scale`: diameters by those of the file; `like`: a
-    section that is packed instead, and the factor by which its disks are then as large (see :mod:`.similar`), or None;
-    `given`: what it was made from, see :mod:`.section_values`."""
+    are meant, see :mod:`.section_units`; `erosion`: windows that take disks out, see :mod:`.erosion`; `source`: file
+    read; `scale`: diameters by those of the file; `like`: a section that is packed instead, and the factor by which its
+    disks are then as large (see :mod:`.similar`), or None; `given`: what it was made from, see
+    :mod:`.section_values`."""
 
     name: str
     description: str
@@ -51,6 +53,7 @@ class Section:
     interfaces: tuple[Interface, ...] = ()
     pressed: bool = False
     unusual: tuple[str, ...] = ()
+    erosion: tuple[Window, ...] = ()
     shaking: Shaking | None = None
     scale: float = 1.0
     like: tuple[Section, float] | None = dataclasses.field(default=None, compare=False, repr=False)
@@ -201,10 +204,12 @@ class Section:
     def release_distance(self) -> float | None:
         """Way downslope [m] that releases a disk from water for good: the water's own, or where that is "critical_slip"
         the D_c of the slip surfaces that weaken (paper, section 5.4: one distance for both), of the water's plane where
-        they have several. None without water.
+        they have several. None without water, infinite where local dilatancy alone releases.
         """
         if self.water is None:
             return None
+        if self.water.release is not None and self.water.release.by == "dilatancy":
+            return math.inf
         if self.water.release_distance != "critical_slip":
             return self.water.release_distance
         slips = self.critical_slips

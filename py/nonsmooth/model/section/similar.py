@@ -22,8 +22,8 @@ __all__ = ["mirrored", "mirrored_packing", "original_value", "scaled", "scaled_p
 
 FACTORS = (1e-5, 1e3)  # of sizes: a slope of 2 km from 2 cm to 2,000 km
 
-# Powers of the ratio of lengths with which values go, by their keys without the names of items; for a list of pairs one
-# each. What is not here has no unit, or that of a density, of gravity or of a weight by volume.
+# Powers of the ratio of lengths with which values go, by their keys without the names of items; for a list of pairs or
+# triples one each. What is not here has no unit, or that of a density, of gravity or of a weight by volume.
 TIME, LENGTH, SPEED, STRESS = 0.5, 1, 0.5, 1
 POWERS = {
     "walls.vertices": LENGTH,
@@ -40,6 +40,7 @@ POWERS = {
     "water.table.rate": SPEED,
     "water.table.points": (TIME, LENGTH),
     "water.release_distance": LENGTH,
+    "water.release.drainage_time": TIME,
     "water.phreatic.lines.time": TIME,
     "water.phreatic.lines.points": LENGTH,
     "water.seepage.size": LENGTH,
@@ -57,6 +58,12 @@ POWERS = {
     "water.field.scale": LENGTH,
     "water.field.stretch": TIME,
     "water.field.states.time": TIME,
+    "erosion.vertices": LENGTH,
+    "erosion.begin": TIME,
+    "erosion.end": TIME,
+    "erosion.velocity": SPEED,
+    "erosion.path": (TIME, LENGTH, LENGTH),
+    "erosion.opening.time": TIME,
     "shaking.begin": TIME,
     "shaking.stretch": TIME,
     "stages.settle.ramp": TIME,
@@ -74,7 +81,7 @@ _OF_A_SECTION = checks.takes(
 _OF_A_PACKING = checks.takes(
     SectionError, packing=checks.has("x y r", "give a Packing, as packing.of(section) returns one")
 )
-_NAMED = ("walls", "layers", "interfaces", "materials")  # whose items have names
+_NAMED = ("walls", "layers", "interfaces", "materials", "erosion")  # whose items have names
 _BY_LAYER = "water.seepage.conductivity"  # whose keys are names of layers
 
 
@@ -98,6 +105,8 @@ def _mirrored(data):
     data = copy.deepcopy(data)
     data["walls"] = [wall | {"vertices": flipped(reversed(wall["vertices"]))} for wall in reversed(data["walls"])]
     data["layers"] = [layer | {"vertices": flipped(reversed(layer["vertices"]))} for layer in data["layers"]]
+    if "erosion" in data:
+        data["erosion"] = [_mirrored_window(window, flipped) for window in data["erosion"]]
     water = data.get("water", {})
     if isinstance(water.get("plane"), dict):
         point, dip = water["plane"]["point"], water["plane"]["dip"]
@@ -109,6 +118,17 @@ def _mirrored(data):
     if "shaking" in data:
         data["shaking"] = section_shaking.mirrored(data["shaking"])
     return data
+
+
+def _mirrored_window(window, flipped):
+    made = window | {"vertices": flipped(reversed(window["vertices"]))}
+    if "velocity" in window:
+        made["velocity"] = flipped([window["velocity"]])[0]
+    if "path" in window:
+        made["path"] = [[t, 0.0 - x, y] for t, x, y in window["path"]]
+    if "direction" in window.get("opening", {}):
+        made["opening"] = window["opening"] | {"direction": flipped([window["opening"]["direction"]])[0]}
+    return made
 
 
 def _rebuilt(section, data):

@@ -40,6 +40,7 @@ _KEY = {
             "stages",
             "numerics",
             "unusual",
+            "erosion",
         )
     },
     "pressed": "disks",

@@ -14,7 +14,7 @@ from pathlib import Path
 import numpy as np
 
 from .. import geometry
-from . import seepage
+from . import seepage, water_release
 from .field_water import FieldWater, rising
 from .parts import points_of
 
@@ -112,6 +112,7 @@ def read(document) -> FieldWater:
         raw["volume"],
         raw["release_distance"] if isinstance(raw["release_distance"], str) else float(raw["release_distance"]),
         raw.get("outside", "refuse"),
+        water_release.read(raw, document),
     )
     if "seepage" in raw:
         return seepage.read(raw["seepage"], common, document)
@@ -125,6 +126,7 @@ def plain(water) -> dict:
         "volume": water.volume,
         "outside": water.outside,
         "release_distance": water.release_distance,
+        **water_release.plain(water.release),
     }
     if isinstance(water, PhreaticLines):
         lines = [{"time": time, "points": [list(p) for p in points]} for time, points in water.lines]

@@ -10,7 +10,7 @@ from dataclasses import asdict
 import numpy as np
 
 from ... import records
-from ...measure import characteristic_times
+from ...measure import centroid, characteristic_times
 from ...measure.surface import deposit_profile
 from ...model import scales, section
 from ...running.kept_runs import Progress
@@ -151,10 +151,7 @@ def measure(case: Case, folder, found) -> Outcome:
     failed_dry = state.get("failed_dry")
     front0 = series["front_m"][0] if failed_dry is not None else state["front0"]
     start = state["moving"] if state["moving"] is not None else times["t0"]
-    moved = np.hypot(
-        series["centroid_x_m"] - series["centroid_x_m"][after][0],
-        series["centroid_y_m"] - series["centroid_y_m"][after][0],
-    )
+    moved = np.hypot(*(way - way[after][0] for way in centroid.path(series)))
     broken = records.broken_bonds(series)
     values = {
         # a slope that does not stand dry bears none

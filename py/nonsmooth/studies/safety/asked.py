@@ -56,6 +56,11 @@ class Asked:
                 raise SafetyError(f"{name}: no number of a search; give some of {', '.join(known)}")
         self.rules()
         self.make_world()
+        if section.erosion:
+            raise SafetyError(
+                f"{section.source}: erosion: a search takes no disks out, and {section.erosion[0].name} would not act; "
+                "leave `erosion` out, and give the shape that is left as layers"
+            )
         water, hold = section.water, section.stages.water_hold
         if water is not None and water.rate > 0 and isinstance(hold, str):
             raise SafetyError(

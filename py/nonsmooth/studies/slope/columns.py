@@ -2,7 +2,7 @@
 
 from ...records.columns import BONDS, STEP, TIME, Column, count, declared
 
-__all__ = ["COLUMNS", "OF_SHAKING", "PERMANENT", "WALL_COLUMNS"]
+__all__ = ["COLUMNS", "ERODING", "FURTHER", "LEDGER_COLUMNS", "OF_SHAKING", "PERMANENT", "RELEASED", "WALL_COLUMNS"]
 
 #: Of ``series.csv``: {name: Column}. Where slip surfaces lie one above another, each has some of them for itself, see
 #: :data:`.records.columns.OWN`.
@@ -82,6 +82,13 @@ COLUMNS = declared(
     ),
 )
 
+#: Of a section whose water local dilatancy releases, besides.
+RELEASED = Column(
+    "water_released_rel",
+    "1",
+    "share that local dilatancy has released of the pressure on disks that water has acted on, by their area",
+)
+
 #: Of a section that shakes, besides: {name: Column}.
 OF_SHAKING = declared(
     Column(
@@ -97,6 +104,41 @@ PERMANENT = Column(
     "m",
     "displacement along the slip surface since t0: mean way down it of the disks that touched it then",
 )
+
+#: Of ``series.csv`` besides, where the section has windows that take disks out: {name: Column}.
+ERODING = declared(
+    count("eroded_disks", "disks that have been taken out so far; those of the row's own time show in the next one"),
+    Column("eroded_kg_per_m", "kg/m", "mass of these disks, the sum of the ledger, eroded.csv"),
+    Column(
+        "energy_eroded_J",
+        "J/m",
+        "kinetic and potential energy, 0 at the origin, that they had when they were taken out, and that left with them",
+    ),
+    Column("eroded_shift_x_m", "m", "how far the centre of mass has jumped as they were taken out, x"),
+    Column("eroded_shift_y_m", "m", "the same, y"),
+)
+
+#: All that the series of some sections have besides: {name: Column}.
+FURTHER = OF_SHAKING | {PERMANENT.name: PERMANENT} | ERODING
+
+#: Of ``eroded.csv``, the ledger, a row for each disk that was taken out: {name: Column}.
+LEDGER_COLUMNS = declared(
+    STEP,
+    TIME,
+    Column("window", "-", "name of the window that took it", str),
+    Column("window_time_s", "s", "time of the window then, since t0, without that in which it stood still"),
+    count("disk", "number of the disk, as in snapshots and in breaks.csv"),
+    Column("layer", "-", "name of its layer", str),
+    Column("mass_kg_per_m", "kg/m", "its mass"),
+    Column("x_m", "m", "where its centre was, x"),
+    Column("y_m", "m", "the same, y"),
+    Column("r_m", "m", "its radius"),
+    Column("vx_m_per_s", "m/s", "its velocity, x"),
+    Column("vy_m_per_s", "m/s", "the same, y"),
+    Column("energy_kinetic_J", "J/m", "its kinetic energy, with that of its rotation"),
+    Column("energy_potential_J", "J/m", "its potential energy, 0 at the origin"),
+)
+
 
 #: Of ``walls.csv``, a row for each wall and time: {name: Column}. Empty where a wall has no such number.
 WALL_COLUMNS = declared(

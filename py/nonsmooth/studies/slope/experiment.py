@@ -23,7 +23,7 @@ from yade.minieigenHP import Vector3
 from yade.wrapper import NewtonIntegrator, PartialEngine, PyRunner
 
 from ... import course, records
-from ...course import State, driver
+from ...course import State, driver, erosion
 from ...errors import UserError
 from ...model import scales
 from ...model.section import Section, data as section_data
@@ -38,6 +38,7 @@ from .attached import come_to, row  # noqa: F401  a scene's CourseRunner calls e
 from .columns import COLUMNS
 from .error import ArgumentError, EndError, ExperimentError
 from .monitoring import SlopeMonitor
+from .water_release import WaterRelease
 
 __all__ = ["ArgumentError", "EndError", "Experiment", "ExperimentError", "State", "COLUMNS", "begin", "resume"]
 
@@ -67,6 +68,8 @@ class Experiment(driver.Course):
         self.state = state or State()
         self.progress = progress or (lambda *_: None)
         self.scales = scales.of(self.section)
+        by_dilatancy = self.section.water is not None and self.section.water.release is not None
+        self.release = WaterRelease(built, mark and mark["release"]) if by_dilatancy else None
         self.stands = False  # see run
         self.unsaved = None if self.hard else "a slope of soft contacts"
         if state is None:
@@ -81,6 +84,7 @@ class Experiment(driver.Course):
             kept = of_section.kept(self.section, self.field, self.folder)
             section_data.write(kept, self.folder / section_data.FILE)
         self.walls = self.monitor.open_walls(self.folder / "walls.csv", mark and mark["walls"])
+        self.eroding = self.monitor.open_ledger(self.folder / results.LEDGER, mark and mark["eroded"])
         if state is None:
             self.frames = frames.Frames(self.folder, self.section)
         else:
@@ -89,7 +93,7 @@ class Experiment(driver.Course):
                 self.monitor.note_begin(self.folder / results.BEGIN)
             rows = records.read_series(self.folder / "series.csv")
             self.frames = frames.Frames(self.folder, self.section, rows, asdict(state))
-        super().__init__(self.series, self.walls.file)
+        super().__init__(self.series, self.walls.file, *([self.eroding.file] if self.eroding else []))
         self.newton = next(e for e in O.engines if isinstance(e, NewtonIntegrator))
         self.damping = (self.newton.damping, self.newton.damping if damping_moving is None else damping_moving)
         if state is None:
@@ -206,7 +210,8 @@ class Experiment(driver.Course):
         solver = self.slope.solver
         disks = tables.bodies(solver)
         self.monitor.inside(disks, self.folder)
-        seen = self.monitor.seen(self.state, disks, not self.stands)
+        more = not self.stands or (self.release is not None and self.release.relaxes)
+        seen = self.monitor.seen(self.state, disks, more)
         s = self.state = course.noted(self.state, seen, self.scales)
         s.overlap_mean_worst = max(s.overlap_mean_worst, solver.overlapMean)
         values, regular = self.monitor.row(s, disks), course.keeps_frame(s, row)
@@ -215,14 +220,14 @@ class Experiment(driver.Course):
         if self.frames.takes(values, regular, asdict(course.after(s, seen, self.section, self.scales))):
             self.snapshot(self.frames.path(O.iter))
         self.frames.tidy()
-        self._decide(seen)
+        self._decide(seen, disks)
         self.progress(self.state.stage, O.time, course.foreseen(self.state, O.time, self.section))
 
     def _finish(self):
         self.checkpoint()
 
-    def _decide(self, seen):
-        """Goes on to the next state, and does what the change means."""
+    def _decide(self, seen, disks):
+        """Goes on to the next state, and does what the change means; ``disks``: their table."""
         before, self.state = self.state, course.after(self.state, seen, self.section, self.scales)
         changed = self.state.stage if self.state.stage != before.stage else None
         if changed == "dry":
@@ -237,6 +242,13 @@ class Experiment(driver.Course):
         begin = course.field_begin(self.state, self.section)
         if begin != course.field_begin(before, self.section):
             self.slope.water.field = pore_pressure.field(self.field, begin)
+        if self.release is not None:  # before disks go, and a checkpoint is written
+            self.release.look(disks, self.state.moving is not None)
+        due = erosion.due(before, self.state, self.section)
+        if due:
+            x, y = self.monitor.take_out(due, disks)
+            self.state.eroded_shift_x += x
+            self.state.eroded_shift_y += y
         if changed == "done":
             self.snapshot(self.folder / "end.npz", contacts=True)
         elif changed:
@@ -321,6 +333,8 @@ class Experiment(driver.Course):
                     "state": asdict(self.state),
                     "series": self.series.mark(),
                     "wall_series": self.walls.file.mark(),
+                    "eroded": self.eroding and self.eroding.file.mark(),
+                    **({"release": self.release.content()} if self.release is not None else {}),
                 },
             )
         self.frames.saved()
@@ -393,6 +407,7 @@ def run_key(section):
             "seed": section.seed,
             "roles": [[item.name, item.role] for item in (*section.walls, *section.layers, *section.interfaces)],
         }
+        | ({"erosion": [asdict(window) for window in section.erosion]} if section.erosion else {})
         | ({"shaking": [shaking.begin, shaking.digest]} if shaking else {})
     )
 
@@ -408,12 +423,15 @@ def resume(section, folder, progress=None):
     content = checkpoints.read(folder, run_key(section), ExperimentError)
     try:
         state, mark = State(**content["state"]), {"series": content["series"], "walls": content["wall_series"]}
+        mark["eroded"] = content.get("eroded")  # none where nothing is taken out
     except (KeyError, TypeError) as error:
         raise ExperimentError(
             f"{folder}: the checkpoint cannot be read ({error}); remove {folder}/checkpoint and run without --resume"
         ) from None
     for name, one in mark.items():
-        records.kept(Path(folder) / f"{name}.csv", one)  # all of them, before any is written to
+        if one is not None:
+            records.kept(Path(folder) / f"{name}.csv", one)  # all of them, before any is written to
+    mark["release"] = content.get("release")
     O.engines = attached.others()  # without that of the run that saved it
     built = slope.find(section, content["walls"], content["first_disk"], content["count"])
     try:

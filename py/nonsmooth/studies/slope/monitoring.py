@@ -17,12 +17,14 @@ from ...model import scales
 from ...records.columns import without
 from ...world import tables
 from . import slope
-from .columns import COLUMNS, OF_SHAKING, PERMANENT
+from .columns import COLUMNS, ERODING, OF_SHAKING, PERMANENT, RELEASED
+from .eroding import Eroding
 from .error import ExperimentError
 from .wall_series import WallSeries
 
 __all__ = ["OF_SOLVER", "SlopeMonitor"]
 
+ROUNDING = 1e-9  # of the energy that disks had which were taken out
 FORCE_SAMPLES = 100  # of the forces on walls in a row, with soft contacts; each step with hard ones
 
 #: Columns that only a run of rigid disks has: of the contact solver, and of the energies that it sums up.
@@ -44,9 +46,11 @@ class SlopeMonitor:
     scene has them.
 
     ``field``: the section's pore pressures in the time since t0, a MeshField, or None;
-    ``walls``: its WallSeries, once :meth:`open_walls` has been called; ``columns``: those of the rows, {name: Column};
-    ``hard``: whether its disks are rigid; ``mass``: which disks are of the mass, bool (count,), None: all. ``disks``
-    and ``t`` are the table of :func:`.tables.bodies`.
+    ``walls``: its WallSeries, once :meth:`open_walls` has been called; ``eroding``: its Eroding, once
+    :meth:`open_ledger` has, where the section has windows that take disks out; ``columns``: those of the rows, {name:
+    Column}; ``hard``: whether its disks are rigid; ``by_dilatancy``: whether local dilatancy releases its water;
+    ``mass``: which disks are of the mass, bool (count,), None: all. ``disks`` and ``t`` are the table of
+    :func:`.tables.bodies`, of those that are there.
     """
 
     def __init__(self, built, layers=None, field=None):
@@ -58,6 +62,7 @@ class SlopeMonitor:
         # disks of the mass, where others are bed or obstacles
         mass = np.array([layer.role == "mass" for layer in self.section.layers])
         self.mass = None if mass.all() else mass[self.layers]
+        self._density = np.array([self.section.materials[layer.material].density for layer in self.section.layers])
         # disks whose water slip surfaces bear: the lowest of them; and in part, each that has columns of its own
         self._borne = None if self.section.borne.all() else self.section.borne[self.layers]
         self._borne_by = {name: self.section.borne_by(name)[self.layers] for name in self.section.stacked}
@@ -65,10 +70,15 @@ class SlopeMonitor:
         self.columns = (COLUMNS if self.hard else without(COLUMNS, OF_SOLVER)) | {
             name: COLUMNS[records.stem(name)]._replace(name=name) for name in own
         }
+        self.columns |= ERODING if self.section.erosion else {}
+        self.eroding = None
         self._begin = self._surfaces = None  # the Snapshot of t0, and its slip surfaces
         if self.section.shaking is not None:
             names = [records.column(PERMANENT.name, name) for name, _ in self.section.slip_surfaces]
             self.columns = self.columns | OF_SHAKING | {name: PERMANENT._replace(name=name) for name in names}
+        self.by_dilatancy = self.section.water is not None and self.section.water.release is not None
+        if self.by_dilatancy:
+            self.columns = self.columns | {RELEASED.name: RELEASED}
 
     def open_walls(self, path, mark=None):
         """Opens the file of walls, and returns its WallSeries; ``mark``: of a checkpoint."""
@@ -77,6 +87,31 @@ class SlopeMonitor:
         period = 1 if self.hard else max(1, int(row / O.dt / FORCE_SAMPLES))
         self.walls = WallSeries(self.slope, self.layers, path, period, mark)
         return self.walls
+
+    def open_ledger(self, path, mark=None):
+        """Opens the ledger of disks that windows take out, where the section has some; returns its Eroding, or None."""
+        if self.section.erosion:
+            self.eroding = Eroding(self.slope, self.layers, self.mass, path, mark)
+        return self.eroding
+
+    def take_out(self, due, disks):
+        """Lets the windows that are ``due`` take disks out, see :meth:`.eroding.Eroding.take`; returns by how much the
+        mass's centre jumps, (x, y) [m].
+        """
+        left = self.eroding.take(due, disks)
+        of_mass = np.ones(len(left), bool) if self.mass is None else self._there(self.mass, disks)
+        if left.all():
+            return 0.0, 0.0
+        weight = self._density[self._there(self.layers, disks)] * disks["r"] ** 2
+        before, after = (
+            [np.average(disks[axis][rows], weights=weight[rows]) for axis in ("x", "y")]
+            for rows in (of_mass, of_mass & left)
+        )
+        return float(after[0] - before[0]), float(after[1] - before[1])
+
+    def _there(self, values, disks):
+        """Values of all disks, (count, …), as those of the ones that are there."""
+        return values if len(disks["id"]) == self.slope.count else values[disks["id"] - self.slope.first_disk]
 
     def note_begin(self, path):
         """Reads the snapshot of t0, from which on ways are counted."""
@@ -136,24 +171,36 @@ class SlopeMonitor:
             return None
         wet = state.wet or (self.slope.water is not None and self.slope.water.wetCount > 0)
         shaken = triggers.begun(self.section, course.loads_since(state), O.time)
-        brought = 0.0 if state.stage == "settle" else abs(e.broughtEnergy)
+        brought = 0.0 if state.stage == "settle" else abs(self._brought(e))
         return brought + abs(e.wallWork) + (0.0 if wet or shaken else abs(e.externalWork))
+
+    def _brought(self, e):
+        """What others than windows brought [J/m]: what the engine counts, less that of disks which were taken out, to
+        rounding.
+        """
+        if self.eroding is None or not self.eroding.disks:
+            return e.broughtEnergy
+        rest = e.broughtEnergy + self.eroding.energy
+        return rest if abs(rest) > ROUNDING * self.eroding.turned else 0.0
 
     def mean_speed(self, t):
         """Of the disks of the mass [m/s]; ``t``: the disks' table."""
         return (
-            self.slope.solver.meanSpeed if self.mass is None else float(np.mean(np.hypot(t["vx"], t["vy"])[self.mass]))
+            self.slope.solver.meanSpeed
+            if self.mass is None
+            else float(np.mean(np.hypot(t["vx"], t["vy"])[self._there(self.mass, t)]))
         )
 
     def centroid(self, t):
         """Of the mass, (x, y) [m]."""
         if self.mass is None:
             return self.slope.solver.centroid[0], self.slope.solver.centroid[1]
-        return tuple(float(np.average(t[name][self.mass], weights=t["r"][self.mass] ** 2)) for name in ("x", "y"))
+        mass = self._there(self.mass, t)
+        return tuple(float(np.average(t[name][mass], weights=t["r"][mass] ** 2)) for name in ("x", "y"))
 
     def front(self, t):
         """Of the mass [m]."""
-        chosen = slice(None) if self.mass is None else self.mass
+        chosen = slice(None) if self.mass is None else self._there(self.mass, t)
         return front_of(t["x"][chosen], t["r"][chosen], self.section.side)
 
     def packing_fraction(self):
@@ -166,10 +213,11 @@ class SlopeMonitor:
         """Raises ExperimentError where a disk of the table ``t`` has left the section's box, and where a script has
         erased or added some; ``folder``: the run's.
         """
-        if len(t["x"]) != self.slope.count:
+        count = self.slope.count - (self.eroding.disks if self.eroding else 0)
+        if len(t["x"]) != count:
             raise ExperimentError(
-                f"at t = {O.time:.3f} s the scene has {len(t['x'])} disks, and the slope {self.slope.count}: its records have a row for each from its beginning on. Let a script that drives a slope "
-                "push disks or move walls, and neither erase nor add disks; without some from the beginning, give a packing without them (packing.read_text)"
+                f"at t = {O.time:.3f} s the scene has {len(t['x'])} disks, and the slope {count}: its records have a row for each from its beginning on. Let a script that drives a slope "
+                "push disks or move walls, and neither erase nor add disks; without some from the beginning, give a packing without them (packing.read_text), and let windows of the section take them out in its course (erosion)"
             )
         x0, y0, x1, y1 = self.section.bounds
         margin = 0.1 * max(x1 - x0, y1 - y0)
@@ -177,13 +225,14 @@ class SlopeMonitor:
         if out.any():
             k = int(np.flatnonzero(out)[0])
             raise ExperimentError(
-                f"disk {k} left the section at t = {O.time:.3f} s: it is at ({t['x'][k]:.1f}, {t['y'][k]:.1f}) m; close the walls of "
+                f"disk {int(t['id'][k]) - self.slope.first_disk} left the section at t = {O.time:.3f} s: it is at ({t['x'][k]:.1f}, {t['y'][k]:.1f}) m; close the walls of "
                 f"{self.section.source} there, or lower numerics.time_step. What was written until now stays in {folder}"
             )
 
     def row(self, state, disks):
         """The row of the series, {column: value}; writes that of the walls."""
         e, water, section = self.slope.solver, self.slope.water, self.section
+        self.walls.there = self._there(np.arange(self.slope.count), disks)
         forces, of_surfaces = self.walls.take()
         dp, fb, ss = forces["slip"], forces["backstop"], forces["ground"]
         total = water.totalForce if water else (0.0, 0.0, 0.0)
@@ -223,6 +272,10 @@ class SlopeMonitor:
             "energy_kinetic_J": e.kineticEnergy,
             "energy_potential_J": e.potentialEnergy,
         }
+        if self.eroding is not None:
+            row |= self.eroding.columns(state)
+        if self.by_dilatancy:
+            row[RELEASED.name] = self._released(disks)
         for name, force in of_surfaces.items():
             share = lift * self._share(disks, self._borne_by[name], state) if water else 0.0
             row |= self._of_surface(name, force, share)
@@ -245,7 +298,9 @@ class SlopeMonitor:
         if self._surfaces is None:  # before t0
             slipped = dict.fromkeys((name for name, _ in self.section.slip_surfaces), 0.0)
         else:
-            slipped = surface_slip.displacements(self._surfaces, self._begin, t["x"], t["y"])
+            slipped = surface_slip.displacements(
+                self._surfaces, self._begin, t["x"], t["y"], t["id"] - self.slope.first_disk
+            )
         return values | {records.column(PERMANENT.name, name): value for name, value in slipped.items()}
 
     def _share(self, t, part, state):
@@ -254,13 +309,26 @@ class SlopeMonitor:
         """
         if part is None:
             return 1.0
-        wet = tables.water(self.slope.water, self.slope.first_disk, self.slope.count)[0] * t["r"] ** 2
+        wet, part = tables.water(self.slope.water, self.slope.first_disk, self.slope.count)[0], self._there(part, t)
+        if self.by_dilatancy:
+            wet = wet * (1 - self._shares())
+        wet = self._there(wet, t) * t["r"] ** 2
         begin = course.field_begin(state, self.section)
         if begin is not None:
             gradient = self.field.gradient(np.column_stack((t["x"], t["y"])), O.time - begin, outside="dry")
             wet = wet * (gradient[:, 0] * self.section.normal[0] + gradient[:, 1] * self.section.normal[1])
         whole = wet.sum()
         return float((wet[part] if part.dtype == bool else wet * part).sum() / whole) if whole else 0.0
+
+    def _shares(self):
+        """Released share of the pressure on each disk."""
+        return tables.released_shares(self.slope.water, self.slope.first_disk, self.slope.count)
+
+    def _released(self, t):
+        """The value of RELEASED."""
+        ever = tables.water(self.slope.water, self.slope.first_disk, self.slope.count)[2]
+        area, shares = self._there(ever, t) * t["r"] ** 2, self._there(self._shares(), t)
+        return float((area * shares).sum() / area.sum()) if area.any() else 0.0
 
     def _of_solver(self, state, e):
         """The columns of OF_SOLVER."""
@@ -289,11 +357,19 @@ class SlopeMonitor:
         t = tables.bodies(built.solver)
         first, count = built.first_disk, built.count
         arrays = {name: t[name] for name in ("x", "y", "r", "angle", "vx", "vy")}
-        arrays["wet"], arrays["released"], arrays["ever_wet"] = tables.water(water, first, count)
-        arrays["weakened"] = self.walls.weakened()
+        of_water = zip(("wet", "released", "ever_wet"), tables.water(water, first, count))
+        arrays |= {name: self._there(values, t) for name, values in of_water}
+        if self.by_dilatancy:
+            arrays["released_share"] = self._there(self._shares(), t)
+        arrays["weakened"] = self._there(self.walls.weakened(), t)
+        numbers = t["id"] - first
         if contacts:
             wall_numbers = {i: k for k, ids in enumerate(built.walls.values()) for i in ids}
             arrays.update(tables.loaded_contacts(built.solver, first, wall_numbers))
-        records.write_snapshot(
-            path, time_s=O.time, step=O.iter, layer=self.layers, water_m=self.water_height(state), **arrays
-        )
+        if len(numbers) != count:
+            arrays["number"] = numbers
+            for name in ("ci", "cj") if contacts else ():  # rows of this snapshot
+                disk = arrays[name] >= 0
+                arrays[name][disk] = np.searchsorted(numbers, arrays[name][disk])
+        layers, height = self._there(self.layers, t), self.water_height(state)
+        records.write_snapshot(path, time_s=O.time, step=O.iter, layer=layers, water_m=height, **arrays)

@@ -11,7 +11,7 @@ from pathlib import Path
 import numpy as np
 
 from ... import records
-from ...measure import energy, force_stages, layers, toe, toe_bands, travel
+from ...measure import centroid, energy, force_stages, layers, toe, toe_bands, travel
 from ...measure.characteristic_times import (
     FASTER,
     NAMES as TIMES,
@@ -23,6 +23,7 @@ from ...measure.characteristic_times import (
     of_run,
     weakening_begins,
 )
+from ...measure.fronts import front
 from ...measure.ground import ground_of
 from ...measure.surface import deposit_profile, on_ground
 from ...model import scales
@@ -49,10 +50,12 @@ SERIES, WALLS, SECTION = "series.csv", "walls.csv", section_data.FILE
 HEAD = b"step,time_s,"  # begins the series of every run
 
 # what a run leaves besides its series and its checkpoint
+INPUTS = (section_shaking.FILE, of_section.FILE)  # that its section.yaml names
+LEDGER = "eroded.csv"  # of disks that were taken out
 SUMMARY, BREAKS, BEGIN, END = "summary.json", "breaks.csv", "t0.npz", "end.npz"
 SNAPSHOTS, PARAVIEW = frames.FOLDER, "vtk"
 #: Names of the figures in the order in which they are drawn; of their files with ".png".
-PICTURES = tuple("force_chains forces snapshots weakening toe deposit shaking water energy solver".split())
+PICTURES = tuple("force_chains forces snapshots weakening toe deposit erosion shaking water energy solver".split())
 FIGURES = (*(f"{name}.png" for name in PICTURES), "avalanche.mp4")
 
 
@@ -64,7 +67,7 @@ def forget(folder):
     """
     folder = Path(folder)
     remove(
-        [folder / name for name in (SUMMARY, BREAKS, BEGIN, END, section_shaking.FILE, of_section.FILE, *FIGURES)]
+        [folder / name for name in (SUMMARY, BREAKS, LEDGER, BEGIN, END, *INPUTS, *FIGURES)]
         + _written(folder / SNAPSHOTS, r"\d{8,}\.npz")
         + _written(folder / PARAVIEW, r"(disks-\w+|contacts-\w+|walls|breaks)\.vtu|avalanche\.pvd"),
         EARLIER,
@@ -92,8 +95,7 @@ def foreign(folder):
         pass
     if (folder / "key").exists():  # kept_runs has begun one
         return None
-    own = (section_shaking.FILE, of_section.FILE)
-    names = (SERIES, WALLS, SECTION, *own, SUMMARY, BREAKS, BEGIN, END, *FIGURES, "checkpoint")
+    names = (SERIES, WALLS, SECTION, *INPUTS, SUMMARY, BREAKS, LEDGER, BEGIN, END, *FIGURES, "checkpoint")
     found = [folder / name for name in names if (folder / name).exists()]
     found += _written(folder / SNAPSHOTS, r"\d{8,}\.npz") + _written(folder / PARAVIEW, r".*\.(vtu|pvd)")
     return found[0].relative_to(folder).as_posix() if found else None
@@ -148,6 +150,7 @@ PASSIVE = (
     "fb_force_at_failure_over_passive"
 ).split()
 BED = ("entrained_kg_per_m", "bed_kg_per_m", "deposited_kg_per_m", "mass_kg_per_m")
+EROSION = ("eroded_disks", "eroded_kg_per_m", "eroded_at_failure_kg_per_m", "energy_eroded_J_per_m")
 #: Between which times bands of the toe are looked for: until the slip surface is weak, and as the paper's Figure 13 has
 #: it, until the slope accelerates.
 TOE_BANDS = {"toe_bands": ("t1", "t3"), "toe_bands_triggering": ("t0", "t2")}
@@ -175,6 +178,7 @@ def numbers_of(section) -> list[str]:
         found += [f"shaking.{name}" for name in SHAKING]
         found += [f"displacements_m.{name}" for name, _ in section.slip_surfaces]
     found += BED if any(layer.role == "bed" for layer in section.layers) else ()
+    found += EROSION if section.erosion else ()
     return found + list(PASSIVE if _has_passive(section) else ())
 
 
@@ -228,7 +232,7 @@ def while_it_fails(folder, every, times, first="t1", last="t3"):
     if times["t0"] is not None and (begin := Path(folder) / BEGIN).exists():
         paths[times["t0"]] = begin
     found = [paths.get(times[name]) for name in (first, last)]
-    return None if None in found else tuple(map(records.read_snapshot, found))
+    return None if None in found else records.in_both(*map(records.read_snapshot, found))
 
 
 def _toe_bands(folder, every, section, times, first, last):
@@ -258,12 +262,37 @@ def _toe_bands(folder, every, section, times, first, last):
     }
 
 
+def _front_travel(section, series, front0, start, end):
+    """How far the front went from its place ``front0`` [m] at the beginning, None where that is not known; where disks
+    have been taken out, that of the disks that are left at the end.
+    """
+    if section.erosion and series["eroded_disks"][-1]:
+        if start is None or end is None:
+            return None
+        first, last = (front(one, section.side, layers=ground_of(section).mass) for one in records.in_both(start, end))
+        return section.side * (last - first)
+    return section.side * float(series["front_m"][-1] - front0) if front0 is not None else None
+
+
+def _of_erosion(section, every, failure):
+    """The numbers of :data:`EROSION`; nothing for a section without windows. ``every``: all rows; ``failure``: when the
+    slope moved off [s], None where it did not.
+    """
+    if not section.erosion:
+        return {}
+    last = {name: every[name][-1] for name in ("eroded_disks", "eroded_kg_per_m", "energy_eroded_J")}
+    at = None if failure is None else float(every["eroded_kg_per_m"][np.argmin(np.abs(every["time_s"] - failure))])
+    values = (int(last["eroded_disks"]), float(last["eroded_kg_per_m"]), at, float(last["energy_eroded_J"]))
+    return dict(zip(EROSION, values, strict=True))
+
+
 def _of_layers(section, start, end):
     """What became of the mass between two Snapshots, None for those that there are not: travel, mixing, and how far its
-    layers are turned over.
+    layers are turned over. Disks that were taken out count at neither time.
     """
     if start is None or end is None:
         return dict.fromkeys((*travel.NAMES, "mixing", "overturned_m"))
+    start, end = records.in_both(start, end)
     ground = ground_of(section)
     density = [section.materials[layer.material].density for layer in section.layers]
     return {
@@ -311,6 +340,7 @@ def _of_bed(section, start, end):
         return {}
     if start is None or end is None:
         return dict.fromkeys(BED)
+    start, end = records.in_both(start, end)
     density = np.array([section.materials[layer.material].density for layer in section.layers])
     size = np.array([math.sqrt(section.disks_of(layer).mean_square) for layer in section.layers])
     weight, ground = density[end.layer] * math.pi * end.r**2, ground_of(section)
@@ -384,11 +414,9 @@ def summarise(folder, section, state, threads=None) -> dict:
         thickness = float(np.nanmax(height))
         spread = height[on_ground(x, section) & ~np.isnan(height)]
         on_the_ground = float(spread.max()) if len(spread) else 0.0
-        bulking = areas[1] / areas[0] if failed_dry is None else None  # it had loosened before
-        moved = math.hypot(
-            series["centroid_x_m"][-1] - series["centroid_x_m"][after][0],
-            series["centroid_y_m"][-1] - series["centroid_y_m"][after][0],
-        )
+        # neither where it had loosened before, nor where a part is gone
+        bulking = areas[1] / areas[0] if failed_dry is None and end.number is None else None
+        moved = math.hypot(*(way[-1] - way[after][0] for way in centroid.path(series)))
     counted = all(name in every for name in records.LOSSES)  # soft contacts sum up no energies, and have no solver
     turned = energy.turned_over(balanced) if counted else 0.0
     found = verdict.of(every, section, state, times, None if start is None else len(start.x))
@@ -436,7 +464,7 @@ def summarise(folder, section, state, threads=None) -> dict:
         "triggering_s": _difference(times["t3"], times["t2"]),
         "weakening_s": _difference(times["t3"], begins),
         "motion_s": _difference(times["t5"], times["t3"]),
-        "front_travel_m": section.side * float(series["front_m"][-1] - front0) if front0 is not None else None,
+        "front_travel_m": _front_travel(section, series, front0, start, end),
         "centroid_travel_m": moved,
         "speed_max_m_per_s": float(np.max(series["speed_max_m_per_s"])),
         "speed_mean_max_m_per_s": float(np.max(series["speed_mean_m_per_s"])),
@@ -462,6 +490,7 @@ def summarise(folder, section, state, threads=None) -> dict:
     for name, between in TOE_BANDS.items():
         summary[name] = _toe_bands(folder, every, section, times, *between)
     summary |= _of_bed(section, start, end) | _of_shaking(section, every)
+    summary |= _of_erosion(section, every, state["moving"])
     summary |= _passive(
         section, state["packing_fraction"], summary["water_at_failure_m"], summary["fb_force_at_failure_N_per_m"]
     )

@@ -136,6 +136,8 @@ class Drawing:
             return self._shaking(path)
         if self.first is None:
             return None
+        if name == "erosion":
+            return self._erosion(path)
         if name == "force_chains":
             return figures.force_chains(self.first, self.section, path, title="Initial state")
         if self.verdict == verdict.STOOD:  # nothing was deposited
@@ -158,6 +160,15 @@ class Drawing:
         seen = results.while_it_fails(self.folder, self.every, self.times) if self.section.of_role("backstop") else None
         envelope = self.section.envelope
         return seen and figures.toe(*seen, self.section, path, friction_deg=envelope and envelope.friction_deg)
+
+    def _erosion(self, path):
+        """Nothing where no window has taken disks out."""
+        if not self.section.erosion:
+            return None
+        ledger = records.read_eroded(self.folder / results.LEDGER)
+        if not len(ledger["disk"]):
+            return None
+        return figures.erosion(self.first, ledger, self.section, self.series, path, times=self.times)
 
     def _shaking(self, path):
         """Nothing where the ground does not shake, or t0 has not come. Beside the displacement along each slip surface

@@ -211,6 +211,7 @@ def _label(layer, number):
 
 
 def layers_of(slope: Slope) -> np.ndarray:
-    """Layer number of every disk, from the bottom; shape (count,)."""
+    """Layer number of every disk, from the bottom, −1 of those that are gone; shape (count,)."""
     number = {_label(layer, k): k for k, layer in enumerate(slope.section.layers)}
-    return np.array([number[O.bodies[slope.first_disk + k].material.label] for k in range(slope.count)])
+    bodies = (O.bodies[slope.first_disk + k] for k in range(slope.count))
+    return np.array([-1 if body is None else number[body.material.label] for body in bodies])

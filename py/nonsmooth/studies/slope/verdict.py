@@ -13,16 +13,18 @@ import numpy as np
 
 from ... import course, records
 from ...course import triggers
+from ...measure import centroid
 from ...model import scales
 
 __all__ = ["MEANINGS", "TITLES", "Verdict", "of"]
 
-STOOD, SLID, DRY, MOVED, WATER, SHAKEN, RESTLESS, UNFINISHED = (
+STOOD, SLID, DRY, MOVED, WATER, ERODED, SHAKEN, RESTLESS, UNFINISHED = (
     "stood",
     "slid",
     "failed dry",
     "moved dry",
     "failed by water",
+    "failed by erosion",
     "failed by shaking",
     "not at rest",
     "not over",
@@ -35,6 +37,7 @@ MEANINGS = {
     MOVED: "it moved off so, and not, or not surely, by its weight: a script, or a wall that moves, had done work on it; or, with soft contacts, whose work nobody counts, it "
     "had been at rest under its weight",
     WATER: "it moved off once water acted on it",
+    ERODED: "it moved off once disks had been taken out of it, whether water acted on it too or not",
     SHAKEN: "it moved off once the ground shook, while water acted on it or dry",
     RESTLESS: "it had neither moved off nor come to rest when the run ended",
     UNFINISHED: "the run was stopped before it was known",
@@ -48,6 +51,7 @@ TITLES = {
     DRY: "the slope failed dry",
     MOVED: "the slope moved dry",
     WATER: "the slope failed by water",
+    ERODED: "the slope failed by erosion",
     SHAKEN: "the slope failed by shaking",
     RESTLESS: "the slope did not come to rest",
     UNFINISHED: "the run is not over",
@@ -78,21 +82,25 @@ def of(series, section, state, times, disks=None) -> Verdict:
         else f"; it had not come to rest at {last:.1f} s, when the run {'ended' if over else 'was stopped'}"
     )
     start = triggers.since(state.get("t0"), state.get("failed_dry"))
-    # what moves after the record, in water, is the water's
-    shaken = (triggers.acting if _wet(series, moved) else triggers.begun)(section, start, moved)
-    if not shaken and (state.get("failed_dry") is not None or not _wet(series, moved)):
+    eroded = state.get("failed_dry") is None and _eroded(series, moved)
+    # what moves after the record, in water or eroded, is not the record's
+    shaken = (triggers.acting if eroded or _wet(series, moved) else triggers.begun)(section, start, moved)
+    if not shaken and (state.get("failed_dry") is not None or not (eroded or _wet(series, moved))):
         return _dry(series, section, state, moved, rest)
     fast = float(np.max(series["speed_mean_m_per_s"][series["time_s"] >= moved - 1e-9]))
     table = _at(series, "water_m", moved)
     if not over and fast < scales.of(section).going_speed:
+        at = f", with {eroded}" if eroded else f", with {_height(section, table)}" * (section.water is not None)
         return Verdict(
             UNFINISHED,
-            f"the run was stopped at {last:.1f} s, while the slope moved and could still have come to rest again; it began to at {moved:.1f} s{f', with {_height(section, table)}' * (section.water is not None)}",
+            f"the run was stopped at {last:.1f} s, while the slope moved and could still have come to rest again; it began to at {moved:.1f} s{at}",
         )
     if shaken:
         return _shaken(series, section, state, moved, start, rest)
+    if eroded:
+        return _by_erosion(series, state, moved, eroded, table, rest)
     failure = table if times["t1"] is None else _at(series, "water_m", times["t1"])
-    also = f"; {_from_outside(state)} before, so it may not have been the water alone" if state.get("outside") else ""
+    also = _also(state, "the water")
     return Verdict(
         WATER,
         f"the slope failed by water, with {_height(section, failure, 'the table')}; it began to move at {moved:.1f} s{rest}{also}",
@@ -102,20 +110,46 @@ def of(series, section, state, times, disks=None) -> Verdict:
 def _shaken(series, section, state, moved, start, rest):
     """Of a slope that moved off while the ground shook."""
     since, motion = moved - start - section.shaking.begin, section.shaking.motion
-    also = f"; {_from_outside(state)} before, so it may not have been the shaking alone" if state.get("outside") else ""
+    also = _also(state, "the shaking")
     return Verdict(
         SHAKEN,
-        f"the slope failed by shaking{_water(series, section, None, moved)}; it began to move at {moved:.1f} s, {since:.1f} s after the record began, whose largest acceleration is "
+        f"the slope failed by shaking{_load(series, section, None, moved)}; it began to move at {moved:.1f} s, {since:.1f} s after the record began, whose largest acceleration is "
         f"{motion.peak_acceleration():.3g} m/s²{rest}{also}",
     )
+
+
+def _by_erosion(series, state, moved, eroded, table, rest):
+    wet = _wet(series, moved)
+    water = f"; water acted on it too, with the table at {table:.4g} m" if wet else ""
+    return Verdict(
+        ERODED,
+        f"the slope failed by erosion, with {eroded}; it began to move at {moved:.1f} s{rest}{water}"
+        f"{_also(state, 'the erosion')}",
+        None if wet else moved,
+    )
+
+
+def _eroded(series, time):
+    """What had been taken out by a row's time [s], in words; "" where that is nothing."""
+    if "eroded_disks" not in series or not _at(series, "eroded_disks", time):
+        return ""
+    disks, mass = _at(series, "eroded_disks", time), _at(series, "eroded_kg_per_m", time)
+    return f"{disks:,.0f} disk{'s' * (disks > 1)} ({1e-3 * mass:.3g} t/m) taken out of it"
+
+
+def _also(state, trigger):
+    """That others had done something to it."""
+    if not state.get("outside"):
+        return ""
+    return f"; {_from_outside(state)} before, so it may not have been {trigger} alone"
 
 
 def _unmoved(series, section, state, last, over, disks):
     if not over:
         doing = {"settle": "settled", "dry": "rested dry"}.get(state["stage"])
-        water = "" if doing else _water(series, section, disks)
+        water = "" if doing else _load(series, section, disks)
         return Verdict(UNFINISHED, f"the run was stopped at {last:.1f} s, while the slope {doing or 'stood'}{water}")
-    speed, water = float(series["speed_mean_m_per_s"][-1]), _water(series, section, disks)
+    speed, water = float(series["speed_mean_m_per_s"][-1]), _load(series, section, disks)
     if speed >= scales.of(section).stopped_speed:
         return Verdict(
             RESTLESS,
@@ -127,7 +161,7 @@ def _unmoved(series, section, state, last, over, disks):
         return Verdict(
             SLID,
             f"the slope slid by {way:.3g} m, its centre of mass sideways since {'the water began to rise' if state['t0'] is not None else 'it settled'}, at {np.max(series['speed_mean_m_per_s']):.2g} m/s "
-            f"at most, and was at rest when the run ended at {last:.1f} s; it had slid by {100 * course.COLLAPSED:g} % of its size at {when:.1f} s{_water(series, section, disks, when)}",
+            f"at most, and was at rest when the run ended at {last:.1f} s; it had slid by {100 * course.COLLAPSED:g} % of its size at {when:.1f} s{_load(series, section, disks, when)}",
         )
     early = state.get("quiet_since") is not None and last < state["settled"] + section.stages.end.time - 1e-6 * last
     why = "; it was at rest and nothing was to come that could change it" if early else ""
@@ -138,15 +172,22 @@ def _slid(series, section, state):
     """Way of the mass's centre [m] sideways from t0 on (from its beginning, where that did not come), where it is that
     of a mass that does not stand, and the time [s] at which it had become so; None where it is not."""
     since = series["time_s"] >= (state["t0"] if state["t0"] is not None else -math.inf) - 1e-9
-    ways = np.abs(series["centroid_x_m"][since] - series["centroid_x_m"][since][:1])
+    x = centroid.path(series)[0][since]
+    ways = np.abs(x - x[:1])
     far = course.COLLAPSED * section.mass_size
     if not len(ways) or ways[-1] < far:
         return None
     return float(ways[-1]), float(series["time_s"][since][np.argmax(ways >= far)])
 
 
-def _water(series, section, disks, time=None):
-    """How far the water has come, at most or by a ``time`` [s], as the end of a sentence."""
+def _load(series, section, disks, time=None):
+    """How far water and erosion have come, at most or by a ``time`` [s], as the end of a sentence."""
+    eroded = _eroded(series, float(series["time_s"][-1]) if time is None else time)
+    eroded = f" and {eroded}" if eroded else ""
+    return f"{_of_water(series, section, disks, time)}{eroded}"
+
+
+def _of_water(series, section, disks, time):
     if section.water is None:
         return ", without water"
     table, wet = (

@@ -37,7 +37,8 @@ class Slip(NamedTuple):
 
 class WallSeries:
     """Of a built :class:`~nonsmooth.studies.slope.slope.Slope`, its disks' ``layers`` (count,); ``path``: the file;
-    ``period``: see :class:`.wall_forces.WallForces`; ``mark``: of a checkpoint."""
+    ``period``: see :class:`.wall_forces.WallForces`; ``mark``: of a checkpoint. ``there``: numbers of the disks that
+    are there, which alone count."""
 
     def __init__(self, built, layers, path, period, mark=None):
         section = built.section
@@ -56,6 +57,7 @@ class WallSeries:
         self._interfaces = [(i, *section.numbers_of(i), slope.interface_law(built, i)) for i in section.interfaces]
         self._obstacles = [(layer.name, k) for k, layer in enumerate(section.layers) if layer.role == "obstacle"]
         self._layer_of = np.concatenate([np.full(built.first_disk, -1), layers])  # by body; -1: a wall
+        self.there = np.arange(built.count)
         self.file = records.SeriesWriter(path, WALL_COLUMNS, resume_from=mark, overwrite=True)
 
     def forget(self):
@@ -81,7 +83,7 @@ class WallSeries:
         rows = {name: forces[name] for name in self._slope.walls} | inside
         self.file.write(
             *(
-                self._row(name, *force, _slip([laws[name]] if name in laws else []), slid.get(name))
+                self._row(name, *force, self._slip([laws[name]] if name in laws else []), slid.get(name))
                 for name, force in rows.items()
             )
         )
@@ -97,7 +99,7 @@ class WallSeries:
     def slip(self, *names):
         """The Slip of disks along slip surfaces of these names, the lowest where none is given."""
         laws = self._laws()
-        return _slip([laws[name] for name in names or self._lowest])
+        return self._slip([laws[name] for name in names or self._lowest])
 
     def weakened(self):
         """Whether the disks' slip along each wall and interface that weakens has passed D_c, as
@@ -156,17 +158,25 @@ class WallSeries:
         )
         return dict(zip(WALL_COLUMNS, (O.iter, O.time, name, normal, shear, peak, *told, slid), strict=True))
 
+    def _slip(self, materials):
+        """The Slip along walls or interfaces of these materials, those that do not weaken apart."""
+        weak = [m for m in materials if hasattr(m, "meanSlip")]
+        of_each = [self._slip_of(m) for m in weak]
+        touched = sum(one.touched for one in of_each)
+        mean = (
+            of_each[0].mean
+            if len(weak) == 1
+            else sum(one.mean * one.touched for one in of_each) / touched
+            if touched
+            else 0.0
+        )
+        return Slip(mean, sum(one.weakened for one in of_each), touched, bool(weak))
 
-def _slip(materials):
-    """The Slip along walls or interfaces of these materials, those that do not weaken apart."""
-    weak = [m for m in materials if hasattr(m, "meanSlip")]
-    counts = [m.slippedCount() for m in weak]
-    touched = sum(counts)
-    mean = (
-        weak[0].meanSlip()
-        if len(weak) == 1
-        else sum(m.meanSlip() * n for m, n in zip(weak, counts)) / touched
-        if touched
-        else 0.0
-    )
-    return Slip(mean, sum(m.weakenedCount() for m in weak), touched, bool(weak))
+    def _slip_of(self, material):
+        """The Slip along one that weakens; it knows that of disks which are gone too."""
+        built = self._slope
+        if len(self.there) == built.count:
+            return Slip(material.meanSlip(), material.weakenedCount(), material.slippedCount(), True)
+        slip = tables.slip(material, built.first_disk, built.count)[self.there]
+        touched, weakened = np.count_nonzero(slip > 0), np.count_nonzero(slip >= material.criticalSlip)
+        return Slip(float(slip.sum()) / touched if touched else 0.0, weakened, touched, True)

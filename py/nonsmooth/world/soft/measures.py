@@ -60,6 +60,12 @@ class Measures:
     def forgetEnergies(self):
         """Nothing to forget: no energies are summed up here."""
 
+    def forget_bodies(self, ids):
+        """Bodies were erased, these ``ids``: their bonds are gone and have not broken."""
+        gone = set(ids)
+        self._whole = {pair: told for pair, told in self._whole.items() if gone.isdisjoint(pair)}
+        self._step = None
+
     def look(self):
         """Looks at all contacts: which bonds broke since the last look, and how. Contacts without a bond get their
         residual strengths.

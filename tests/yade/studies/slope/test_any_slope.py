@@ -51,6 +51,7 @@ def test_shipped_sections_are_listed(in_process):
         ("jiufengershan", 300, 0.5),
         ("rain", 500, 5.0),
         ("reservoir", 500, 5.0),
+        ("undercut", 400, 3.2),
     ],
 )
 def test_every_shipped_section_begins(name, disks, end, in_process, monkeypatch, tmp_path):

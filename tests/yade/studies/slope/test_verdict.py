@@ -77,6 +77,48 @@ def test_a_slope_that_failed_dry_says_how_far_its_front_went(side):
     assert ", its front went 130 m, and " in of(section, failed_dry=3.0, columns=columns).says
 
 
+def eroded(since=12.0, shift=0.0):
+    """Columns of a slope of which 5 disks of 20 t/m together are taken out at a time [s], and whose centre jumps then
+    by so much of the mass's size."""
+    return dict(
+        eroded_disks=lambda t: np.where(t >= since, 5, 0),
+        eroded_kg_per_m=lambda t: np.where(t >= since, 2e4, 0.0),
+        eroded_shift_x_m=lambda t: np.where(t >= since, shift * SIZE, 0.0),
+        eroded_shift_y_m=lambda t: 0 * t,
+    )
+
+
+def test_a_slope_that_moves_off_once_disks_were_taken_out_failed_by_erosion():
+    wet, dry = of(columns=eroded()), of(columns=eroded() | DRY)
+    assert wet.kind == dry.kind == "failed by erosion"
+    assert "the slope failed by erosion, with 5 disks (20 t/m) taken out of it; it began to move at " in wet.says
+    assert "; water acted on it too, with the table at " in wet.says and "water" not in dry.says
+    assert wet.before is None and dry.before == STATE["moving"]  # water_at_failure_m is of those that are wet
+    after = STATE["moving"] + 1.0
+    assert of(columns=eroded(after)).kind == "failed by water" and of(columns=eroded(after) | DRY).kind == "failed dry"
+    assert of(failed_dry=3.0, columns=eroded(1.0)).kind == "failed dry"
+    helped = of(outside=3e4, columns=eroded())
+    assert helped.says.endswith("brought or taken 3e+04 J/m before, so it may not have been the erosion alone")
+
+
+def test_one_that_stands_says_what_was_taken_out():
+    assert of(moving=None, columns=RESTING | eroded()).says.endswith(" and 5 disks (20 t/m) taken out of it")
+    one = RESTING | eroded() | dict(eroded_disks=lambda t: np.where(t >= 12.0, 1, 0))
+    assert of(moving=None, columns=one).says.endswith(" and 1 disk (20 t/m) taken out of it")
+    assert "taken out" not in of(moving=None, columns=RESTING | eroded(1e3)).says
+    until = of(until=31.0, stage="water", columns=eroded())
+    assert until.kind == "not over" and "it began to at" in until.says and "5 disks (20 t/m)" in until.says
+
+
+def test_a_jump_of_the_centre_is_no_slide():
+    """It is 5 % of the size where disks are taken out of one side; the rest stays where it is."""
+    jump = RESTING | eroded(20.0, 0.05)
+    jump |= dict(centroid_x_m=lambda t: 40.0 + np.where(t >= 20.0, 0.05 * SIZE, 0.0))
+    assert of(moving=None, columns=jump).kind == "stood"
+    back = jump | dict(centroid_x_m=lambda t: np.full(len(t), 40.0))  # where what is left came back by as much
+    assert of(moving=None, columns=back).kind == "slid"
+
+
 def test_every_verdict_is_said_and_each_has_its_meaning():
     found = {
         of().kind,
@@ -87,6 +129,7 @@ def test_every_verdict_is_said_and_each_has_its_meaning():
         of(moving=None).kind,
         of(moving=None, columns=slid(0.05)).kind,
         of(stage="dry", until=9.0, moving=None, t0=None).kind,
+        of(columns=eroded()).kind,
     }
     assert found | {verdict.RESTLESS} == set(verdict.MEANINGS) == set(verdict.TITLES)
 
