@@ -61,6 +61,11 @@ class Asked:
                 f"{section.source}: erosion: a search takes no disks out, and {section.erosion[0].name} would not act; "
                 "leave `erosion` out, and give the shape that is left as layers"
             )
+        if section.shaking is not None:
+            raise SafetyError(
+                f"{section.source}: shaking: a search does not shake the slope; leave `shaking` out, or run the section "
+                "with its strengths divided (laboratory.materials.divided)"
+            )
         water, hold = section.water, section.stages.water_hold
         if water is not None and water.rate > 0 and isinstance(hold, str):
             raise SafetyError(

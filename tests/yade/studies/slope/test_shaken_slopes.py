@@ -12,6 +12,7 @@ import yaml
 from yade import O
 from yade.nonsmooth import experiment, ground_motion, newmark, records, runs, section, similar, worlds
 from yade.nonsmooth.measure import surface_slip
+from yade.nonsmooth.studies.safety.asked import Asked, SafetyError
 from yade.nonsmooth.studies.slope import results
 
 FRICTION = 0.75  # on a plane of 30°, where tan is 0.577
@@ -219,3 +220,8 @@ def test_the_script_that_compares_peaks(tmp_path):
         assert f"after it began, front {numbers['front_travel_m']['mean']:.0f}" in done.stdout
     for name in ("shaken", "shaken_runouts"):
         assert (tmp_path / "out" / f"{name}.png").stat().st_size > 1000
+
+
+def test_a_search_for_the_factor_of_safety_does_not_shake():
+    with pytest.raises(SafetyError, match="shaking: a search does not shake the slope; leave `shaking` out"):
+        Asked(block())
