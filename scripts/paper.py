@@ -64,12 +64,20 @@ def main():
             progress=lambda share, ended: progress(share, f"{ended} slopes have ended"),
         )
     rows = paper_slopes.rows(found)
-    heads, lines = paper_slopes.table(rows)
+    changes, (heads, lines) = paper_slopes.changes(rows), paper_slopes.table(rows)
     told = {
         "disks": args.disks,
         "seeds": args.seeds,
         "slopes": {row["name"]: row for row in rows},
-        "tables": [["The shipped slope and its control runs", heads, lines]],
+        "changes": {row["name"]: row for row in changes},
+        "tables": [
+            ["The shipped slope and its control runs", heads, lines],
+            ["Characteristic times, counted from t0", *paper_slopes.table(rows, paper_slopes.TIMES)],
+            [
+                "Changes from the shipped slope of the same packing",
+                *paper_slopes.table(changes, paper_slopes.TIMES | paper_slopes.CHANGES),
+            ],
+        ],
     }
     write_json(out / "paper_slopes.json", told)
     pictures = paper_figures.draw(found, out)

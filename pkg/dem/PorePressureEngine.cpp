@@ -24,6 +24,11 @@ void PorePressureEngine::validate() const
 	nscd::require(
 	        releaseDistance >= 0, "PorePressureEngine", "releaseDistance", releaseDistance,
 	        "0 or more [m]; infinite, and water acts on a body wherever it goes");
+	for (size_t id = 0; id < releasedShare.size(); ++id)
+		if (!(releasedShare[id] >= 0 && releasedShare[id] <= 1))
+			throw std::invalid_argument(
+			        "PorePressureEngine: releasedShare[" + std::to_string(id)
+			        + "] = " + nscd::number(releasedShare[id]) + ": give a share from 0 to 1");
 	for (const auto& [name, values] :
 	     { std::pair("planePoint", &planePoint), std::pair("planeNormal", &planeNormal),
 	       std::pair("pressureGradient", &pressureGradient) })
@@ -106,6 +111,7 @@ void PorePressureEngine::forgetWayOf(size_t id)
 	if (id < reference.size()) reference[id].setConstant(NaN); // until the body is met
 	if (id < moved.size()) moved[id] = 0;
 	if (id < everWet.size()) everWet[id] = 0;
+	if (id < releasedShare.size()) releasedShare[id] = 0;
 }
 
 void PorePressureEngine::preSave(PorePressureEngine&)
@@ -172,8 +178,9 @@ void PorePressureEngine::action()
 		const Vector3r place = b.place();
 		if (!moved[id] && (place - reference[id]).dot(downhill) > releaseDistance) moved[id] = 1;
 		releasedCount += isReleased(id);
-		if (moved[id] || !wets(place, normal, perVolume)) continue;
-		const Vector3r force = perVolume * (volumeFactor * Mathr::PI * b.radius * b.radius * thickness);
+		if (drained(id) || !wets(place, normal, perVolume)) continue;
+		Vector3r force = perVolume * (volumeFactor * Mathr::PI * b.radius * b.radius * thickness);
+		force *= 1 - shareReleased(id);
 		scene->forces.addForce(id, force);
 		wet[id] = everWet[id] = 1;
 		++wetCount;

@@ -125,6 +125,11 @@ def read(args) -> section.Section:
         raise section.SectionError(
             f"--water {args.water:g}: {s.source} has no water; add the key `water` to it, or leave --water out"
         )
+    if args.water is not None and s.water_field is not None:
+        raise section.SectionError(
+            f"--water {args.water:g}: {s.source} has no water table that could rise, but a field of water; leave "
+            "--water out"
+        )
     if args.water is not None and s.water is not None:
         s = s.with_values({"water.table": {"rate": args.water}})
     if args.critical_slip is not None:

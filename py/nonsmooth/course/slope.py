@@ -10,14 +10,17 @@ Rules:
   mean speed is 0.2 m/s at t0, or comes to that without having been below 0.02 m/s since. The water does not rise, or no
   further; the slope is followed until it rests. What moved it, its weight or something else, says
   :mod:`yade.nonsmooth.studies.slope.verdict`;
-* t0: the dry rest ends, the water begins to rise, and the times of other triggers (:mod:`yade.nonsmooth.course.triggers`) count from here;
+* t0: the dry rest ends, the water begins to rise, and the times of other triggers
+  (:mod:`yade.nonsmooth.course.triggers`) count from here;
 * moving, t2: the mean speed reaches 0.2 m/s: the slope no longer just follows the water. With ``water.hold: motion``
   the table stays where it is from here on, and the solver's tolerance is ``tolerance_moving``, until the mean speed is
   down to a tenth of its maximum; from there it falls with the speed, down to ``tolerance``. A slope that comes to rest
   again without having got going does not count as moving: the table then goes on rising;
 * still: the slope does not move, its water table has stood at one height for 5 s, and no other trigger or window acts:
-  the tolerance is a quarter of ``tolerance``, since nothing but the solver's error is left to move a disk, and over a minute a looser solve breaks a
-  bond or two that bear all they can;
+  the tolerance is a quarter of ``tolerance``, since nothing but the solver's error is left to move a disk, and over a
+  minute a looser solve breaks a bond or two that bear all they can;
+* a field of water (lines, files, seepage) has its states at their times since t0, whether the slope moves or not; as
+  long as one is to come, the slope is not still, and does not stand;
 * rows and snapshots are of the first steps that end at, or less than half a step before, whole multiples of their
   distance in time, from the beginning on;
 * speeds and times in this list are those of the shipped section, and scaled for another (:mod:`.scales`);
@@ -48,6 +51,7 @@ __all__ = [
     "care",
     "collapsed",
     "damping",
+    "field_begin",
     "flowing",
     "foreseen",
     "gravity_share",
@@ -124,7 +128,7 @@ class State:
 @dataclass(frozen=True)
 class Seen:
     """What a row sees of the slope: ``time`` [s] and length of the last ``step`` [s], mean ``speed`` [m/s], height of
-    the ``water`` table [m], None where the section has none.
+    the ``water`` table [m], None where the section has none, and whether states of a field of water are ``coming``.
 
     ``way``: of the mass's centre since it was packed, sideways, in its size; ``broken``: part of the bonds that is
     broken; ``wet``: number of wet disks; ``top``: height of the highest disk's centre above the water's plane [m];
@@ -136,6 +140,7 @@ class Seen:
     step: float
     speed: float
     water: float | None = None
+    coming: bool = False
     way: float = 0.0
     broken: float = 0.0
     wet: int = 0
@@ -215,15 +220,14 @@ def _water(state, seen, section, scales):
     since = (seen.time if s.resting_since is None else s.resting_since) if resting else None
     height = seen.water if rises else 0.0
     s = _quieted(s, seen, section)
-    calm = triggers.over(section, loads_since(s), seen.time) and not erosion.may_take(s, seen.step, section)
-    rested = resting and passed(seen, stages.end.rest_hold, since) and calm
+    rested = resting and passed(seen, stages.end.rest_hold, since) and _load_is_last(s, seen, section)
     over = rested or passed(seen, s.settled + stages.end.time)
     return replace(
         s,
         stage="done" if over or (not seen.more and stands(s, seen, section, scales)) else "water",
         resting_since=since,
         table=height,
-        table_since=s.table_since if height == s.table else seen.time,
+        table_since=s.table_since if height == s.table and not seen.coming else seen.time,
     )
 
 
@@ -237,11 +241,17 @@ def _quieted(s, seen, section):
     return replace(s, quiet_since=since, quiet_broken=seen.broken, quiet_wet=seen.wet)
 
 
+def _load_is_last(s, seen, section):
+    """Whether no trigger acts or will, no state of a field of water is to come, and no window may take a disk."""
+    over = triggers.over(section, loads_since(s), seen.time)
+    return over and not seen.coming and not erosion.may_take(s, seen.step, section)
+
+
 def _load_stays(s, seen, section):
-    """Whether no trigger changes the load any more, no disk is taken out, and none gets wet or dry by the table: it stays
-    where it is, or above all of them.
+    """Whether the load does not change any more: nothing is to come (:func:`_load_is_last`), and no disk gets wet or dry
+    by the table, as it stays where it is, or above all of them.
     """
-    if not triggers.over(section, loads_since(s), seen.time) or erosion.may_take(s, seen.step, section):
+    if not _load_is_last(s, seen, section):
         return False
     table = water_table(s, section)
     if table is None:
@@ -270,8 +280,8 @@ def passed(seen, time, since=0.0):
 
 # ---- what follows from it ---------------------------------------------------------------------------
 def water_table(state, section):
-    """Times [s] and heights [m] of the water table, two lists; None before t0."""
-    if state.t0 is None or section.water is None:
+    """Times [s] and heights [m] of the water table, two lists; None before t0, and where the water is none."""
+    if state.t0 is None or section.water_table is None:
         return None
     if state.water_hold is not None:
         return [state.t0], [state.water_hold]
@@ -282,6 +292,13 @@ def water_table(state, section):
         times.append(times[-1] + span)
         heights.append(heights[-1] + water.rate * span)
     return [state.t0 + state.water_delay + t for t in times], heights
+
+
+def field_begin(state, section):
+    """The time [s] at which that of the section's field of water is 0; None before t0, where the slope did not wait for
+    the water, and where the section has no such field.
+    """
+    return None if section.water_field is None or state.water_hold is not None else state.t0
 
 
 def flowing(speed, largest):

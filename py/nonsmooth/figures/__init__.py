@@ -16,6 +16,7 @@ from .markers import markers
 from .moving import animate, record, recording
 from .numerics import energy, solver
 from .profiles import deposit, snapshots
+from .release import releases
 from .runouts import runouts
 from .scene import draw
 from .shaking import shaking
@@ -37,6 +38,7 @@ __all__ = [
     "animate",
     "record",
     "recording",
+    "releases",
     "energy",
     "erosion",
     "means",

@@ -271,6 +271,8 @@ def forces_against_time(series, times, path=None, pdf=False, window=1.0, walls=N
     name, rest = (SKETCHED[role] if ground is None else ground.name(role) for role in ("slip", "backstop"))
     base = SKETCHED["slip"] if ground is None else ground.base
     wet = bool(np.any(water > 0) or np.any(pore))
+    head = getattr(walls, "water_field", None) is not None  # of a field of water, and no table's height
+    told = f"mean pressure head on {style.plain(name)}" if head else "$h_w$  water table"
     own = [] if ground is None else _own(series, ground)
     largest = max(np.abs(values).max() for values in (total, shear, back, *(force for one in own for force in one[1:])))
     newtons, unit = style.force_unit(largest)
@@ -364,14 +366,15 @@ def forces_against_time(series, times, path=None, pdf=False, window=1.0, walls=N
                 ax.set_xlabel("time [s]" if column == 0 else "time [s], failure and triggering enlarged")
             elif wet:
                 table = ax.twinx()
-                table.plot(time, water, color=INK, lw=1.1, ls=(0, (1, 1.2)), label="$h_w$  water table (right axis)")
+                table.plot(time, water, color=INK, lw=1.1, ls=(0, (1, 1.2)), label=f"{told} (right axis)")
                 # The same zero on both axes.
                 low, high = ax.get_ylim()
                 top = 1.25 * max(water.max(), 1e-9)
                 table.set_ylim(top * low / high, top)
                 table.set_yticks([v for v in table.get_yticks() if 0 <= v <= top])
                 if column == len(spans) - 1:
-                    table.set_ylabel(f"water table above {style.plain(base)} [m]" if base else "water table [m]")
+                    over = f"water table above {style.plain(base)} [m]" if base else "water table [m]"
+                    table.set_ylabel("mean pressure head [m]" if head else over)
                     table.spines["right"].set_visible(True)
                     handles, labels = table.get_legend_handles_labels()
                     legend[0] = (legend[0][0] + handles, legend[0][1] + labels)

@@ -84,14 +84,15 @@ def _foot(ax, snapshot, ground, view, place, first):
 
 @given.takes(cases=given.WET, walls=given.WALLS)
 @style.styled
-def snapshots(cases, walls, path=None, pdf=False, close_up=True):
+def snapshots(cases, walls, path=None, pdf=False, close_up=True, free_surface=None):
     """The slope at successive times, one below the other (the paper's Figure 13).
 
     ``cases``: list of (label, :class:`~nonsmooth.records.Snapshot`), labels such as "t0". Dry disks ochre, disks that
     feel pore pressure blue, those that were wet and have been released pink, shades alternating with the layers; the
     water table as a dashed line; of slip surfaces the part whose disks have passed D_c red, where the snapshots tell
     (:mod:`~nonsmooth.measure.weakening`). All panels have the same limits and scale; ``close_up`` adds the foot of the
-    slope, enlarged, to each, where the shear bands of the failure appear.
+    slope, enlarged, to each, where the shear bands of the failure appear. ``free_surface``: of a field of water, the
+    polylines (k, 2) [m] of a time [s], ``free_surface(time)``, in the place of a water table.
     """
     cases, ground = list(cases), ground_of(walls)
     if not cases:
@@ -111,7 +112,9 @@ def snapshots(cases, walls, path=None, pdf=False, close_up=True):
         style.draw_walls(ax, ground, named=("slip", "ground") if place else None)
         style.draw_disks(ax, snapshot, style.state_colours(snapshot))
         weakens |= style.draw_weakened(ax, ground, snapshot)
-        if snapshot.water_m > 0:
+        if free_surface is not None:
+            ax.plot(*style.free_surface(free_surface(snapshot.time_s)).T, **style.WATER_LINE)
+        elif snapshot.water_m > 0:
             style.water_line(ax, ground, snapshot.water_m)
         if place:
             _foot(ax, snapshot, ground, view, place, first=k == 0)
@@ -121,7 +124,8 @@ def snapshots(cases, walls, path=None, pdf=False, close_up=True):
             transform=ax.transAxes, ha=align, va="top", fontsize=13, fontweight="bold", color=INK, zorder=8, path_effects=style.EDGE,
         )  # fmt: skip
         lines = [meaning] if meaning else []
-        lines += [f"water table {style.length(snapshot.water_m, extent, 1)}" if snapshot.water_m > 0 else "no water"]
+        what = "water table" if free_surface is None else "mean head"  # on the slip surfaces
+        lines += [f"{what} {style.length(snapshot.water_m, extent, 1)}" if snapshot.water_m > 0 else "no water"]
         lines += [
             f"wet {100 * (snapshot.wet & ~snapshot.released).mean():.0f} %, released {100 * snapshot.released.mean():.0f} %"
         ]
@@ -138,7 +142,7 @@ def snapshots(cases, walls, path=None, pdf=False, close_up=True):
         ((Patch(color=style.DRY[0]), Patch(color=style.DRY[1])), "dry"),
         ((Patch(color=style.WET[0]), Patch(color=style.WET[1])), "under pore pressure"),
         ((Patch(color=style.RELEASED[0]), Patch(color=style.RELEASED[1])), "pore pressure released"),
-        (Line2D([], [], color=style.WATER, ls=(0, (5, 2)), lw=1.3), "water table"),
+        (Line2D([], [], **style.WATER_LINE), "water table" if free_surface is None else "free surface of the water"),
         (Line2D([], [], color=style.WALL, lw=1.6), f"walls: {names}" if len(names) <= 24 else "walls"),
     ]
     if weakens:

@@ -61,6 +61,7 @@ __all__ = [
     "symbol",
     "view",
     "water_line",
+    "free_surface",
     "water_table",
     "with_settings",
 ]
@@ -72,6 +73,7 @@ WET = ("#1f5fa8", "#4a90d0")
 RELEASED = ("#e06aa6", "#f5a9cd")
 COMPRESSION, TENSION = "#1f5fa8", "#d62728"
 GROUND, WALL, WATER, INK = "#e4e4e0", "#222222", "#0b6fb8", "#222222"
+WATER_LINE = {"color": WATER, "lw": 1.3, "ls": (0, (5, 2)), "zorder": 5}
 EDGE = [withStroke(linewidth=2, foreground="white")]  # of letters that lie over what is drawn
 STRONG, WEAKENED = "#cdc6b4", "#b00020"  # of a slip surface: as strong as ever, and where D_c is passed
 # Okabe and Ito's palette for lines.
@@ -398,13 +400,18 @@ def water_table(ax, ground, height):
     return np.column_stack([x, np.where(y > ground.surface(x), y, np.nan)])
 
 
+def free_surface(lines):
+    """Points (n, 2) of one line in a picture, of the polylines of a free surface, with NaN between them."""
+    parts = [np.vstack((np.asarray(line, float), [[np.nan, np.nan]])) for line in lines]
+    return np.vstack(parts) if parts else np.zeros((0, 2))
+
+
 def water_line(ax, ground, height, **options):
     """The water table as a line, see :func:`water_table`; returns it, or None where no plane is known."""
     points = water_table(ax, ground, height)
     if points is None:
         return None
-    options = {"color": WATER, "lw": 1.3, "ls": (0, (5, 2)), "zorder": 5, **options}
-    return ax.plot(points[:, 0], points[:, 1], **options)[0]
+    return ax.plot(points[:, 0], points[:, 1], **{**WATER_LINE, **options})[0]
 
 
 def shade_phases(ax, times, names=False):

@@ -17,7 +17,7 @@ __all__ = ["MARKERS", "means"]
 #: it did not.
 MARKERS = {
     "failed by water": ("s", True),
-    "failed by shaking": ("X", True),
+    "failed by shaking": ("P", True),
     "stood": ("o", False),
     "slid": ("P", False),
     "failed dry": ("v", True),

@@ -35,7 +35,7 @@ FORCES = (  # column, symbol, meaning, role of the walls, colour
 class _Frames(film.Stage):
     """The artists of one video."""
 
-    def __init__(self, ground, view, first, size, series, times, window, longest):
+    def __init__(self, ground, view, first, size, series, times, window, longest, free_surface=None):
         width, height = size
         super().__init__(style.figure(width / 100, height / 100, dpi=100))
         self.slope, self.extent, self.longest = ground, view[1] - view[0], longest
@@ -55,7 +55,11 @@ class _Frames(film.Stage):
         style.scale_bar(self.ax, 0.975 if ground.side > 0 else 0.145, 0.06, 0.12)
         self._legend()
         self.disks, self.numbers = style.draw_disks(self.ax, first, style.state_colours(first)), _numbers(first)
-        self.water = style.water_line(self.ax, ground, 0.0)
+        self.free_surface = free_surface
+        if free_surface is None:
+            self.water = style.water_line(self.ax, ground, 0.0)
+        else:
+            self.water = self.ax.plot([], [], **style.WATER_LINE)[0]
         self.clock = self.fig.text(0.015, 0.985, "", fontsize=17, fontweight="bold", va="top")
         self.state = self.fig.text(0.16, 0.98, "", fontsize=13, va="top", color="#444444")
         self.moving = [a for a in (self.disks, *inside, self.water, self.clock, self.state) if a is not None]
@@ -113,11 +117,14 @@ class _Frames(film.Stage):
         colours[there] = style.state_colours(snapshot)
         self.disks.set_offsets(offsets)  # one that has been taken out since is nowhere
         self.disks.set_facecolors(colours)
-        if self.water is not None:
+        if self.free_surface is not None:
+            self.water.set_data(*style.free_surface(self.free_surface(snapshot.time_s)).T)
+        elif self.water is not None:
             self.water.set_data(*style.water_table(self.ax, self.slope, snapshot.water_m).T)
             self.water.set_visible(snapshot.water_m > 0)
         self.clock.set_text(f"t = {style.seconds(snapshot.time_s, self.longest)}")
-        water = f"water table {style.length(snapshot.water_m, self.extent, 1)}    " if self.water is not None else ""
+        what = "water table" if self.free_surface is None else "head on the slip surface"
+        water = f"{what} {style.length(snapshot.water_m, self.extent, 1)}    " if self.water is not None else ""
         self.state.set_text(
             f"{water}mean speed {np.hypot(snapshot.vx, snapshot.vy).mean():.{1 if self.extent >= 20 else 2}f} m/s"
         )
@@ -152,14 +159,24 @@ def _read(path):
 
 @given.takes(snapshot_paths=SNAPSHOTS, walls=given.WALLS, path=FILE, series=SERIES)
 def write_mp4(
-    snapshot_paths, walls, path, fps=15, series=None, times=None, size=(1280, 720), window=1.0, progress=None
+    snapshot_paths,
+    walls,
+    path,
+    fps=15,
+    series=None,
+    times=None,
+    size=(1280, 720),
+    window=1.0,
+    progress=None,
+    free_surface=None,
 ):
     """Write an MP4 with one frame for each snapshot, in the given order.
 
     ``snapshot_paths``: files of :func:`~nonsmooth.records.write_snapshot` of one run (contacts are not needed); they
     are read one by one. ``walls``: see :mod:`nonsmooth.figures`. ``size``: pixels, even numbers. ``series`` (with
     ``times``): adds a strip of forces against time with a cursor, means over ``window`` [s] once the avalanche moves.
-    ``progress``: called with (frames done, all frames) after each frame. Returns (path, None), or (None, note) when
+    ``progress``: called with (frames done, all frames) after each frame. ``free_surface``: as of figures.snapshots.
+    Returns (path, None), or (None, note) when
     there is no ffmpeg or it failed; a file that was there before is replaced only by a whole new one. Raises
     :class:`~nonsmooth.records.RecordsError` for a name, size or number of frames a second (``fps``) that no video can
     have, if there is no snapshot, one is unreadable, or their numbers of disks differ.
@@ -175,7 +192,9 @@ def write_mp4(
         matplotlib.rcdefaults()
         matplotlib.rcParams.update(style.RC)
         sample = _sample(paths)
-        frames = _Frames(ground, style.view(sample, ground), sample[0], size, series, times, window, sample[-1].time_s)
+        longest = sample[-1].time_s
+        view = style.view(sample, ground)
+        frames = _Frames(ground, view, sample[0], size, series, times, window, longest, free_surface)
 
         def pictures():
             for done, name in enumerate(paths, start=1):

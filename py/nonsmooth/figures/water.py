@@ -1,5 +1,7 @@
 """Water in the ground: pressure heads, flow lines, heads and the free surface of a seepage, and pressures in time."""
 
+from typing import NamedTuple
+
 import matplotlib
 import numpy as np
 from matplotlib.collections import LineCollection
@@ -28,6 +30,7 @@ COLOURS = "Blues"
 FEWEST, HEADS = 6, 11  # steps of colours, and lines of equal head with both ends
 WIDTH, LEAST, MOST = 8.0, 1.6, 7.0  # inches of a picture, and its smallest and largest height
 FLOW_LINES = 12
+STILL = 1e-6  # gradient of the head below which water stands, but for rounding
 ACROSS = 160  # places at which flow lines are looked for, along the longer side
 
 
@@ -68,11 +71,13 @@ def seepage(result, section=None, path=None, pdf=False):
 
 @given.takes(field=FIELD, times=TIMES, section=LAYERED)
 @style.styled
-def pore_pressures(field, times=None, section=None, path=None, pdf=False):
+def pore_pressures(field, times=None, section=None, path=None, pdf=False, flow=None):
     """Pore pressures at several times, one panel below the other, in one scale of colours.
 
     ``field``: a :class:`~nonsmooth.water.fields.MeshField`; ``times`` [s]: those of its states where None; ``section``:
-    as of :func:`seepage`. The free surface is drawn thick.
+    as of :func:`seepage`; ``flow``: a function of the time that gives heads [m] at the nodes, fluxes [m/s] and wet
+    shares of the triangles, whose flow lines are drawn, and the largest conductivity [m/s]. The free surface is drawn
+    thick.
     """
     times = field.times if times is None else list(times)
     states = [field.at(time) for time in times]
@@ -82,10 +87,23 @@ def pore_pressures(field, times=None, section=None, path=None, pdf=False):
         drawn = _fill(ax, triangles, state / 1e3, top / 1e3)
         if 0 < np.count_nonzero(state > 0) < len(state):
             ax.tricontour(triangles, state, [0.0], colors=style.WATER, linewidths=2.2)
+        seen = None if flow is None else _Flow(field.mesh, *flow(time))
+        if seen is not None and np.abs(seen.flux[seen.wet > 0.5]).max(initial=0.0) > STILL * seen.fastest:
+            _flow_lines(ax, seen)
         ax.set_title(f"t = {style.seconds(time, max(np.abs(times)))}", loc="left")
     fig.colorbar(drawn, ax=panels, shrink=0.8, label="pore pressure [kPa]")
     style.scale_bar(np.atleast_1d(panels)[-1])
     return style.save(fig, path, pdf)
+
+
+class _Flow(NamedTuple):
+    """What :func:`_flow_lines` asks of a Seepage."""
+
+    mesh: object
+    head: np.ndarray
+    flux: np.ndarray
+    wet: np.ndarray
+    fastest: float
 
 
 def _body(mesh, section, count=1):

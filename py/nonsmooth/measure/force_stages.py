@@ -37,7 +37,7 @@ import math
 
 import numpy as np
 
-__all__ = ["NAMES", "statements"]
+__all__ = ["NAMES", "statements", "water_halved"]
 
 NAMES = (
     "normal_change",
@@ -108,6 +108,18 @@ def statements(series, times, friction, mean, backstop=True) -> dict[str, float 
             found["backstop_momentum"] = _correlation(series[f"{push}_N_per_m"][moving], momentum)
             found["backstop_final"] = _ratio(at(push, t[-1]), at(push, t1))
     return found
+
+
+def water_halved(series, times) -> float | None:
+    """Time [s] after t2 in which the force of the pore water on what the slip surfaces bear falls to half of what it
+    was at t2; None where it does not, or where there was none. ``series``, ``times``: as for :func:`statements`.
+    """
+    if times["t2"] is None:
+        return None
+    moving = series["time_s"] >= times["t2"]
+    t, force = series["time_s"][moving], series["dp_water_N_per_m"][moving]
+    low = np.flatnonzero(force <= 0.5 * force[0])
+    return float(t[low[0]] - t[0]) if force[0] > 0 and len(low) else None
 
 
 def _ratio(a, b):

@@ -167,8 +167,8 @@ def ground_of(walls):
 
 
 def _water_of(section):
-    """The water's plane of a Section, over its wall or over the layers; None where it has no water."""
-    water = section.water
+    """The water's plane of a Section, over its wall or over the layers; None where it has no water table."""
+    water = section.water_table
     if water is None:
         return None
     normal = np.array(water.normal)

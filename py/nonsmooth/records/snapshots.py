@@ -23,9 +23,10 @@ class Snapshot:
     Scalars: ``time_s`` [s], ``step``, ``water_m`` [m] (height of the water table above its plane).
     Disks, shape (N,): ``x``, ``y``, ``r`` [m], ``angle`` [rad], ``vx``, ``vy`` [m/s], ``layer`` (int, 0 lowest), and
     bool: ``wet`` (water acts on it now),
-    ``released`` (was wet, and has moved so far downslope that water acts on it no longer), ``ever_wet``. And
+    ``released`` (was wet, and water acts on it no longer, by its way downslope or by dilatancy), ``ever_wet``. And
     ``weakened``, bool of shape (N, W): the slip along each of the W walls and interfaces that weaken has passed the
-    critical slip D_c, in the order of :attr:`.section.Section.weakening`. Files of earlier versions tell neither
+    critical slip D_c, in the order of :attr:`.section.Section.weakening`. Where local dilatancy releases the water,
+    ``released_share``, from 0 to 1: the share of the pressure that acts no longer. Files of earlier versions tell neither
     ``ever_wet`` nor
     ``weakened``, and their ``released`` has disks that never were wet too.
     Contacts, shape (C,): ``ci``, ``cj`` disk indices (``cj = -1 - k`` for wall number k), ``cn``, ``ct`` normal and
@@ -57,6 +58,7 @@ class Snapshot:
     cy: Optional[np.ndarray] = None
     water_m: Optional[float] = None
     ever_wet: Optional[np.ndarray] = None
+    released_share: Optional[np.ndarray] = None
     weakened: Optional[np.ndarray] = None
     walls: Optional[np.ndarray] = None
     number: Optional[np.ndarray] = None

@@ -26,7 +26,7 @@ from .equations import TRIED, Equations
 from .error import WaterError
 from .mesh import Mesh
 
-__all__ = ["DRY", "Seepage", "SeepageError", "Unconverged", "course", "solve", "tensor"]
+__all__ = ["DRY", "Seepage", "SeepageError", "Unconverged", "course", "solve", "tensor", "tensors"]
 
 DRY = 1e-3  # conductivity of what lies above the free surface, by that below it
 DROP = 0.5  # decades by which it falls in a step of the way there ...
@@ -149,7 +149,7 @@ def solve(mesh, conductivity, conditions, *, dry=DRY, start=None, tolerance=1e-9
         )
     dry = checks.number("dry", dry, SeepageError, "give a share above 0 and up to 1", above=0, most=1)
     tolerance = checks.number("tolerance", tolerance, SeepageError, "give 1e-12 to 1e-3", least=1e-12, most=1e-3)
-    problem = Equations(mesh, _tensors(conductivity, mesh), apply(mesh, conditions))
+    problem = Equations(mesh, tensors(conductivity, mesh), apply(mesh, conditions))
     if start is not None:
         head = np.array(start, float)
         if head.shape != problem.y.shape or not np.isfinite(head).all():
@@ -220,8 +220,8 @@ def _result(problem, head, iterations, dry):
     )
 
 
-def _tensors(conductivity, mesh):
-    """Conductivities (m, 2, 2) of the triangles."""
+def tensors(conductivity, mesh):
+    """Conductivities (m, 2, 2) [m/s] of the triangles of a mesh, of what :func:`solve` takes."""
     count = len(mesh.triangles)
     layers = int(mesh.layer.max()) + 1
 

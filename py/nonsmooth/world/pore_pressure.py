@@ -1,6 +1,10 @@
-"""Pore pressure of any flow of water for the engine that puts its force on disks (doc/theory/seepage)."""
+"""Pore pressure of any flow of water for the engine that puts its force on disks (doc/theory/seepage), and which share
+of it no longer acts on each of them (doc/dilatancy).
+"""
 
 from __future__ import annotations
+
+import numpy as np
 
 from yade.minieigenHP import Vector3, Vector3i
 from yade.wrapper import PorePressureField
@@ -9,7 +13,7 @@ from ..errors import UserError
 from ..system import checks
 from ..water.fields import MeshField
 
-__all__ = ["PorePressureError", "field"]
+__all__ = ["PorePressureError", "field", "release"]
 
 
 class PorePressureError(UserError, ValueError):
@@ -36,3 +40,17 @@ def field(pressures, begin=0.0) -> PorePressureField:
         times=(pressures.times + begin).tolist(),
         pressures=pressures.pressures.ravel().tolist(),
     )
+
+
+def release(engine, first, shares):
+    """Sets the share of the pore pressure, 0 to 1, that no longer acts on each of the bodies ``first`` to ``first +
+    len(shares) - 1``, and on no other; ``engine``: the PorePressureEngine.
+
+    Raises PorePressureError for what are no such shares. What is there: :func:`.tables.released_shares`.
+    """
+    given = np.asarray(shares, float)
+    wrong = given.ndim != 1 or not ((given >= 0) & (given <= 1)).all()
+    if wrong:
+        raise PorePressureError(f"shares {checks.shown(shares)}: give a number from 0 to 1 for each body")
+    checks.count("first", first, PorePressureError, "give the id of a body", least=0)
+    engine.releasedShare = [0.0] * first + given.tolist()

@@ -8,7 +8,7 @@ from ..errors import UserError
 from ..records.breaks import BREAK_MODES
 from ..system import checks
 
-__all__ = ["BREAK_MODES", "bodies", "breaks", "contacts", "loaded_contacts", "slip", "water"]
+__all__ = ["BREAK_MODES", "bodies", "breaks", "contacts", "loaded_contacts", "released_shares", "slip", "water"]
 
 _BODY = ("id", "x", "y", "r", "angle", "vx", "vy", "omega")
 _BREAK = ("step", "time", "id1", "id2", "mode", "x", "y")
@@ -122,6 +122,20 @@ def water(engine, first, count) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
         rows = np.frombuffer(engine.bodyTable(), dtype=bool).reshape(-1, 3)[first : first + count]
         found[: len(rows)] = rows
     return tuple(found.T.copy())
+
+
+@_WATER
+def released_shares(engine, first, count) -> np.ndarray:
+    """Share of the pore pressure that no longer acts on each of the bodies ``first`` to ``first + count - 1``, as
+    :func:`.pore_pressure.release` has set it: shape (count,), 0 to 1.
+
+    ``engine``: the PorePressureEngine, or None: 0 for all.
+    """
+    found = np.zeros(count)
+    if engine is not None:
+        shares = engine.releasedShare[first : first + count]
+        found[: len(shares)] = shares
+    return found
 
 
 @_WEAKENING

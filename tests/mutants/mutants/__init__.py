@@ -2,6 +2,7 @@
 from . import (
     between,
     course,
+    dilatancy,
     drawing,
     engines,
     erosion,
@@ -11,6 +12,7 @@ from . import (
     plane,
     results,
     safety,
+    section_water,
     shaking,
     solver,
     state,
@@ -28,6 +30,8 @@ MUTANTS = (
     + impacts.MUTANTS
     + walls.MUTANTS
     + course.MUTANTS
+    + section_water.MUTANTS
+    + dilatancy.MUTANTS
     + results.MUTANTS
     + shaking.MUTANTS
     + safety.MUTANTS

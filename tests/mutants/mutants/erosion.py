@@ -41,7 +41,7 @@ MUTANTS = (
            COURSE + "::test_one_that_holds_takes_nothing_of_an_avalanche"),
     mutant("erosion-delay", RULES, "state.erosion_delay + (seen.time - before.moving)", "seen.time - before.moving", "a second halt makes the first one forgotten",
            COURSE + "::test_it_stands_still_twice"),
-    mutant("erosion-over", PY + "course/slope.py", " or erosion.may_take(s, seen.step, section):", ":", "a slope is over before its window opens",
+    mutant("erosion-over", PY + "course/slope.py", "    if not _load_is_last(s, seen, section):", "    if False:", "a slope is over before its window opens",
            COURSE + "::test_a_slope_is_not_over_while_a_window_may_yet_take"),
     mutant("erosion-rest", PY + "course/slope.py", " and not erosion.may_take(s, seen.step, section)", "", "an avalanche is over while a river goes on",
            COURSE + "::test_an_avalanche_is_over_while_a_window_that_holds_waits_and_not_while_another_takes"),

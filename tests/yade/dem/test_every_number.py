@@ -201,13 +201,13 @@ def stepped():
     return looked(lambda: chosen, bed, two, also=also)
 
 
-@acts("PorePressureEngine", lists=("times", "heights"))
+@acts("PorePressureEngine", lists=("times", "heights", "releasedShare"))
 def water():
     """A disk under water on a floor."""
     stuff = rough()
     bed = floor(stuff)
     low = disk(0, 0.5, stuff)
-    wet = PorePressureEngine(times=[0, 1], heights=[5, 5])
+    wet = PorePressureEngine(times=[0, 1], heights=[5, 5], releasedShare=[0, 0.25])
     begin(gravity=OBLIQUE, before=[wet])
 
     def lift():
@@ -220,7 +220,8 @@ def water():
             return Vector3(0, 0, 0)
         gradient = wet.pressureGradient
         force = -gradient if gradient.norm() > 0 else wet.unitWeight * -pull.dot(normal) * normal
-        return force * (math.pi * 0.5**2 * wet.volumeFactor * wet.thickness)
+        acting = 1 - wet.releasedShare[low]
+        return force * (math.pi * 0.5**2 * wet.volumeFactor * wet.thickness * acting)
 
     return looked(lambda: wet, bed, [low], push=lift)
 
@@ -584,6 +585,7 @@ INHERITED = {
 ELEMENTS = {
     ("PorePressureEngine", "times"): 0.0,
     ("PorePressureEngine", "heights"): 0.0,
+    ("PorePressureEngine", "releasedShare"): 0.0,
     ("PorePressureField", "nodes"): Vector3(0, 0, 0),
     ("PorePressureField", "triangles"): Vector3i(0, 0, 0),
     ("PorePressureField", "times"): 0.0,
@@ -894,6 +896,7 @@ HARMLESS = {
         INF: "water always acts",
         HUGE: "water always acts",
     },
+    ("PorePressureEngine", "releasedShare[0]"): {0: AS_IT_IS},
     ("PorePressureEngine", "volumeFactor"): {0: "no volume is lifted"},
     ("PorePressureEngine", "thickness"): {0: "no volume is lifted"},
     ("PorePressureEngine", "mask"): {-1: "all groups", 0: "all spheres", MOST: "all groups"},

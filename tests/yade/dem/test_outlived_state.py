@@ -606,6 +606,25 @@ def test_water_knows_a_body_from_the_one_that_had_its_id(how, tmp_path):
 
 
 @HOW
+def test_a_released_share_belongs_to_a_body_and_not_to_its_id(how, tmp_path):
+    stuff = material()
+    begin(gravity=(1, -G, 0))
+    rain()
+    free_disk(-20, 1, stuff=stuff)
+    disk = free_disk(0, 1, stuff=stuff)
+    run(1)
+    next(e for e in O.engines if isinstance(e, PorePressureEngine)).releasedShare = [0.5, 1.0]
+    run(1)
+    water = next(e for e in O.engines if isinstance(e, PorePressureEngine))
+    assert water.isReleased(disk) and not water.isReleased(0) and water.wetCount == 1
+    used_again(disk, lambda: scene.disk((20, 1), 0.5, O.materials[0]), how, tmp_path)
+    water = next(e for e in O.engines if isinstance(e, PorePressureEngine))
+    run(1)
+    assert water.isWet(disk) and not water.isReleased(disk) and water.releasedShare[disk] == 0
+    assert water.releasedShare[0] == (0 if how == "cleared" else 0.5)
+
+
+@HOW
 def test_slip_belongs_to_a_body_and_not_to_its_id(how, tmp_path):
     wall, disk = slider(weak(0.1, 0.5))
     stuff = O.bodies[wall].material

@@ -5,7 +5,7 @@ import numpy as np
 import pytest
 from yade import O
 from yade.minieigenHP import Vector3
-from yade.nonsmooth import scene, tables
+from yade.nonsmooth import pore_pressure, scene, tables
 from yade.wrapper import NewtonIntegrator, PorePressureEngine, SlipWeakeningMat
 
 from contact_scenes import G, begin, contacts, material, run
@@ -229,10 +229,61 @@ def test_what_was_wet_is_forgotten_with_the_ways():
     assert not w.wasWet(disk) and not w.isReleased(disk) and w.releasedCount == 0 and told() == (False, False, False)
 
 
+def test_a_released_share_takes_its_part_of_the_force():
+    """Of three disks; bodies beyond the end of the list keep all of it."""
+    ids = disks_above_plane([5, 5, 5], releasedShare=[0.25, 1.0])
+    run(1)
+    w = O.engines[3]
+    whole = WATER * math.cos(DIP) * math.pi * 0.25 * NORMAL
+    for k, acting in zip(ids, (0.75, 0, 1)):
+        s = O.bodies[k].state
+        assert (s.vel - O.dt * (acting * whole / s.mass + Vector3(0, -G, 0))).norm() < 1e-13
+    assert (w.totalForce - 1.75 * whole).norm() < 1e-12 * whole.norm() and w.wetCount == 2
+    assert [w.isWet(k) for k in ids] == [True, False, True]
+    # released are those that were wet; this one never was
+    assert not any(w.isReleased(k) for k in ids) and w.releasedCount == 0
+
+
+def test_a_share_of_none_has_the_bits_of_no_list():
+    assert force_of(releasedShare=[0.0])[0] == force_of()[0]
+
+
+def test_a_share_may_come_back_and_is_forgotten_with_the_ways():
+    ids = disks_above_plane([5, 5])
+    w = O.engines[3]
+    run(1)
+    pore_pressure.release(w, ids[0], [1.0, 0.5])
+    run(1)
+    assert w.isReleased(ids[0]) and w.releasedCount == 1 and w.wetCount == 1
+    assert tables.released_shares(w, ids[0], 2).tolist() == [1.0, 0.5]
+    assert tables.released_shares(w, ids[1], 4).tolist() == [0.5, 0, 0, 0]
+    assert tables.released_shares(None, 0, 2).tolist() == [0, 0]
+    pore_pressure.release(w, ids[0], [0.9, 0.5])
+    run(1)
+    assert not w.isReleased(ids[0]) and w.isWet(ids[0]) and w.releasedCount == 0
+    w.forgetReleases()
+    run(1)
+    assert tables.released_shares(w, ids[0], 2).tolist() == [0, 0]
+
+
+@pytest.mark.parametrize("shares", [[0.5, 1.01], [-0.1], [math.nan], [[0.5]], 0.5])
+def test_what_is_no_share_is_refused(shares):
+    ids = disks_above_plane([5, 5])
+    run(1)
+    with pytest.raises(pore_pressure.PorePressureError, match="give a number from 0 to 1 for each body"):
+        pore_pressure.release(O.engines[3], ids[0], shares)
+    assert list(O.engines[3].releasedShare) == []
+    if np.ndim(shares) == 1:
+        O.engines[3].releasedShare = shares
+        with pytest.raises(ValueError, match=r"releasedShare\[\d\] = .*: give a share from 0 to 1"):
+            run(1)
+
+
 def test_saved_and_loaded(tmp_path):
     ids = disks_above_plane([5, 15, 20, 5], releaseDistance=0.2, heights=(8, 12), times=(0, 10))
     O.bodies[ids[0]].state.vel = O.bodies[ids[1]].state.vel = 2.0 * DOWN
     run(150)
+    O.engines[3].releasedShare = [0, 0, 0, 0.3]
     saved = str(tmp_path / "water.yade.gz")
     O.save(saved)
     run(200)
@@ -245,6 +296,7 @@ def test_saved_and_loaded(tmp_path):
     O.load(saved)
     w = O.engines[3]
     assert w.label == "water" and w.isReleased(ids[0]) and w.heights == [8, 12]
+    assert list(w.releasedShare) == [0, 0, 0, 0.3]
     w.heights = [0, 0]  # who was wet before is known from the file
     run(1)
     assert [w.isReleased(i) for i in ids] == [True, False, False, False] and w.releasedCount == 1

@@ -135,3 +135,11 @@ def test_nothing_is_divided_by_nothing():
     assert [
         still[name] for name in ("normal_change_by_backstop", "shear_drop", "backstop_rise", "backstop_momentum")
     ] == [None] * 4
+
+
+def test_the_water_is_halved_where_its_force_is_half_of_that_at_t2():
+    assert force_stages.water_halved(series(), TIMES) == pytest.approx(3.0)
+    assert force_stages.water_halved(series(), TIMES | {"t2": None}) is None
+    stays = series(dp_water_N_per_m=np.where(T < 50, 200.0, 101.0))
+    assert force_stages.water_halved(stays, TIMES) is None
+    assert force_stages.water_halved(series(dp_water_N_per_m=0 * T), TIMES) is None

@@ -1,11 +1,17 @@
 """Every key of a section file is followed to where it acts: a changed value is found there. The list of keys is the
 schema's, so that a new one without a test fails.
 """
+import atexit
 import copy
+import hashlib
 import math
+import shutil
+import tempfile
 from dataclasses import dataclass
 from pathlib import Path
+from pathlib import Path
 
+import meshio
 import numpy as np
 import pytest
 import yaml
@@ -16,6 +22,10 @@ from yade.nonsmooth import experiment, packing, records, section
 from yade.nonsmooth.measure import toe
 from yade.nonsmooth.model import rocks
 from yade.nonsmooth.studies.slope import results, slope
+from yade.nonsmooth.studies.slope.water_release import WaterRelease
+from yade.nonsmooth.water import field_files, of_section
+from yade.nonsmooth.water.fields import MeshField
+from yade.nonsmooth.water.mesh import grid
 from yade.wrapper import GroundMotionEngine, NewtonIntegrator, NonsmoothTimeStepper, PlanarGridCollider
 
 SCHEMA = yaml.safe_load((section.FOLDER / "section.schema.yaml").read_text())
@@ -205,6 +215,72 @@ RECORD, UNEVEN = str(DATA / "four_values.at2"), str(DATA / "uneven.csv")  # 0, 2
 SHA256 = "db172bc1f0296fdba58cd446629229348cd070a1d7046ea0b52a649ad5dcf31c"  # of these, in m/s²
 SHAKEN = {"file": RECORD, "unit": "m/s2"}
 MADE_UP = {"peak": 2.0, "duration": 2.0, "frequency": 2.0}
+
+LINES = [{"time": 0.0, "points": [[-40.0, 15.0], [5.0, 0.5]]}, {"time": 2.0, "points": [[-40.0, 15.0], [5.0, 1.5]]}]
+
+
+def field_file(folder, factor=1.0):
+    """A file of pressures over the small slope, whose name is always the same; its path."""
+    mesh = grid(np.linspace(-50, 20, 8), np.linspace(-20, 35, 8))
+    path = folder / "field.h5"
+    field_files.write(MeshField(mesh, [1.0], [factor * 9810 * (9 - mesh.nodes[:, 0] - mesh.nodes[:, 1])]), path)
+    return str(path)
+
+
+FOLDER = Path(tempfile.mkdtemp(prefix="section-keys-"))
+atexit.register(shutil.rmtree, FOLDER, True)
+FIELD = field_file(FOLDER)
+STATE = str(Path(FIELD).with_name("state.vtk"))
+_MESH = grid(np.linspace(-50, 20, 8), np.linspace(-20, 35, 8))
+meshio.Mesh(
+    np.column_stack((_MESH.nodes, 0 * _MESH.nodes[:, 0])),
+    [("triangle", _MESH.triangles)],
+    {"p": 9810 * (9 - _MESH.nodes.sum(axis=1))},
+).write(STATE)
+AT = 9810 * (9 + 10 - 3)  # Pa, of these at the place of pressure()
+
+
+def water(**keys):
+    """Changes: this water instead of the table."""
+    return {("water",): keys, ("stages", "water"): None}
+
+
+def seeping(*states, **keys):
+    """Changes: this seepage instead of the table."""
+    return water(seepage={"size": 1.5, "conductivity": 1e-5, "states": list(states), **keys})
+
+
+def border(kind, value, **place):
+    return seeping({"time": 0.0, "boundaries": [{**(place or {"wall": "DP"}), kind: value}]})
+
+
+def head(m, place=(-15.0, 9.2)):
+    """Of the field that a run begins with, p/γ_w [m]."""
+    return head_of(m.section, place)
+
+
+def head_with(*states):
+    """The same of the slope with this seepage."""
+    return head_of(section_of(data(seeping(*states))))
+
+
+def field_of(*states):
+    return of_section.field(section_of(data(seeping(*states))))
+
+
+def head_of(chosen, place=(-15.0, 9.2)):
+    field = of_section.field(chosen)
+    return float(np.ravel(field.mesh.at(field.at(0.0), np.array([place]), field.mesh.locate([place])))[0]) / 9810
+
+
+LAKE = {"time": 0.0, "reservoir": 10.0}
+TOP = [[-1.029, 4.893], [-34.31, 20.4122]]
+
+
+def pressure(m, place=(-10.0, 3.0), time=0.0):
+    """What the engine's field has at a place and a time after t0 [Pa]."""
+    return float(m.run.slope.water.field.at(Vector3(*place, 0), m.run.state.t0 + time)[0])
+
 
 OF_TABLE = {(*ROCK,): {"cohesion": 2e3, "friction_angle": 34.0, "density": 2500.0}}
 
@@ -548,6 +624,167 @@ WHERE = {
             for sign, slides in ((-1, True), (1, False))
         ),
     ],
+    ("water", "phreatic", "lines", "*", "time"): (
+        water(phreatic={"lines": LINES}),
+        lambda m: (pressure(m, time=1.0), list(m.run.field.times)),
+        (pytest.approx(9810 * (0.5 + 14.5 / 3 + 1 / 3 - 3)), [0.0, 2.0]),
+        0.3,
+    ),
+    ("water", "phreatic", "lines", "*", "points"): (
+        water(phreatic={"lines": LINES}),
+        lambda m: (pressure(m), pressure(m, time=2.0)),
+        (pytest.approx(9810 * (0.5 + 14.5 / 3 - 3)), pytest.approx(9810 * (1.5 + 13.5 / 3 - 3))),
+        0.3,
+    ),
+    ("water", "phreatic", "flow"): (
+        water(phreatic={"lines": LINES, "flow": "along"}),
+        pressure,
+        pytest.approx(9810 * (0.5 + 14.5 / 3 - 3) / (1 + (14.5 / 45) ** 2)),
+        0.3,
+    ),
+    ("water", "field", "file"): (water(field={"file": FIELD}), lambda m: pressure(m, time=1.0), pytest.approx(AT), 0.3),
+    ("water", "field", "sha256"): (
+        water(field={"file": FIELD, "sha256": hashlib.sha256(Path(FIELD).read_bytes()).hexdigest()}),
+        lambda m: m.section.water.digests,
+        (hashlib.sha256(Path(FIELD).read_bytes()).hexdigest(),),
+    ),
+    ("water", "field", "states", "*", "time"): (
+        water(field={"states": [{"time": 2.0, "file": STATE}], "name": "p"}),
+        lambda m: pressure(m, time=1.0),
+        pytest.approx(0.5 * AT),
+        0.3,
+    ),
+    ("water", "field", "states", "*", "file"): (
+        water(field={"states": [{"time": 0.0, "file": STATE}], "name": "p"}),
+        pressure,
+        pytest.approx(AT),
+        0.3,
+    ),
+    ("water", "field", "states", "*", "sha256"): (
+        water(
+            field={
+                "states": [{"time": 0.0, "file": STATE, "sha256": hashlib.sha256(Path(STATE).read_bytes()).hexdigest()}]
+            }
+        ),
+        lambda m: m.section.water.digests,
+        (hashlib.sha256(Path(STATE).read_bytes()).hexdigest(),),
+    ),
+    ("water", "field", "name"): (
+        water(field={"file": STATE, "name": "p"}),
+        lambda m: pressure(m),
+        pytest.approx(AT),
+        0.3,
+    ),
+    ("water", "field", "scale"): (
+        water(field={"file": FIELD, "scale": 2.0}),
+        lambda m: pressure(m, time=1.0),
+        pytest.approx(2 * 9810 * (9 + 5 - 1.5)),
+        0.3,
+    ),
+    ("water", "field", "stretch"): (
+        water(field={"file": FIELD, "stretch": 4.0}),
+        lambda m: pressure(m, time=1.0),
+        pytest.approx(AT / 4),
+        0.3,
+    ),
+    ("water", "field", "mirrored"): (
+        water(field={"file": FIELD, "mirrored": True}, outside="dry"),
+        lambda m: pressure(m, time=1.0),
+        pytest.approx(9810 * (9 - 10 - 3) * 1.0),
+        0.3,
+    ),
+    ("water", "seepage", "size"): (
+        seeping(LAKE, size=0.7),
+        lambda m: len(of_section.field(m.section).mesh.nodes) > 2 * len(field_of(LAKE).mesh.nodes),
+        True,
+    ),
+    # twice the conductivity takes twice the rain
+    ("water", "seepage", "conductivity"): (
+        seeping({"time": 0.0, "rain": 2e-6}, conductivity=2e-5),
+        head,
+        lambda m: pytest.approx(head_with({"time": 0.0, "rain": 1e-6}), rel=1e-6),
+    ),
+    ("water", "seepage", "conductivity", "*"): (
+        seeping(LAKE, conductivity={"L1": 1e-5, "L2": 1e-6}),
+        lambda m: m.section.water.conductivity,
+        (("L1", 1e-5, 1e-5, 0.0), ("L2", 1e-6, 1e-6, 0.0)),
+    ),
+    **{
+        ("water", "seepage", "conductivity", "*", name): (
+            seeping(LAKE, conductivity={"L1": 1e-5, "L2": {"along": 3e-6, "across": 1e-6, "dip": 25.0}}),
+            lambda m, k=k: m.section.water.conductivity[1][k],
+            value,
+        )
+        for k, (name, value) in enumerate((("along", 3e-6), ("across", 1e-6), ("dip", 25.0)), 1)
+    },
+    ("water", "seepage", "dry"): (
+        seeping({"time": 0.0, "rain": 1e-6}, dry=0.3),
+        lambda m: (m.section.water.dry, head(m) == head_with({"time": 0.0, "rain": 1e-6})),
+        (0.3, False),
+    ),
+    ("water", "seepage", "states", "*", "time"): (
+        seeping({**LAKE, "time": 2.0}),
+        lambda m: list(of_section.field(m.section).times),
+        [0.0, 2.0],
+    ),
+    ("water", "seepage", "states", "*", "reservoir"): (seeping(LAKE), head, pytest.approx(0.8, abs=1e-9)),
+    ("water", "seepage", "states", "*", "rain"): (
+        seeping({"time": 0.0, "rain": 1e-6}),
+        lambda m: head(m) > head_with({"time": 0.0, "rain": 1e-7}),
+        True,
+    ),
+    ("water", "seepage", "states", "*", "drained"): (
+        seeping(LAKE, {"time": 1.0, "drained": False}),
+        lambda m: float(of_section.field(m.section).pressure([[-5.0, 3.5]], 1.0)[0]) > 9810,
+        True,
+    ),
+    ("water", "seepage", "states", "*", "boundaries", "*", "wall"): (
+        border("head", 10.0, wall="DP"),
+        head,
+        pytest.approx(0.8, abs=0.5),
+    ),
+    ("water", "seepage", "states", "*", "boundaries", "*", "line"): (
+        border("reservoir", 10.0, line=TOP),
+        head,
+        pytest.approx(0.8, abs=0.05),
+    ),
+    ("water", "seepage", "states", "*", "boundaries", "*", "head"): (
+        border("head", 11.0),
+        lambda m: head(m, (-15.0, 7.1)),
+        pytest.approx(3.9, abs=0.2),
+    ),
+    ("water", "seepage", "states", "*", "boundaries", "*", "pressure_head"): (
+        border("pressure_head", 2.0),
+        lambda m: head(m, (-15.0, 7.1)),
+        pytest.approx(2.0, abs=0.2),
+    ),
+    ("water", "seepage", "states", "*", "boundaries", "*", "reservoir"): (
+        border("reservoir", 10.0, line=TOP),
+        head,
+        pytest.approx(0.8, abs=0.05),
+    ),
+    ("water", "seepage", "states", "*", "boundaries", "*", "inflow"): (
+        border("inflow", 1e-6),
+        lambda m: head(m, (-15.0, 7.1)) > 0.2,
+        True,
+    ),
+    # water that comes in below cannot leave by the top
+    ("water", "seepage", "states", "*", "boundaries", "*", "closed"): (
+        seeping({"time": 0.0, "boundaries": [{"wall": "DP", "pressure_head": 6.0}, {"line": TOP, "closed": True}]}),
+        lambda m: head(m, (-15.0, 10.0)) > 1.0,
+        True,
+    ),
+    ("water", "seepage", "states", "*", "boundaries", "*", "seepage_face"): (
+        seeping({"time": 0.0, "reservoir": 30.0, "boundaries": [{"line": TOP, "seepage_face": True}]}),
+        lambda m: head(m, (-15.0, 11.4)) < 0.2,
+        True,
+    ),
+    ("water", "outside"): (
+        water(phreatic={"lines": [{"time": 0.0, "points": [[-20.0, 8.0], [5.0, 0.5]]}]}, outside="dry"),
+        lambda m: tuple(m.run.slope.water.field.at(Vector3(-30.0, 0.0, 0), 1.0)),
+        (None, None),
+        0.3,
+    ),
     # its old name, of the force per volume
     ("water", "gradient"): [
         (
@@ -585,6 +822,27 @@ WHERE = {
         ({("water", "release_distance"): 0.25}, lambda m: m.built.water.releaseDistance, 0.25),
         ({("water", "release_distance"): "critical_slip"}, lambda m: m.built.water.releaseDistance, 50.0),
     ],
+    ("water", "release", "by"): [
+        ({("water", "release"): {"by": "dilatancy"}}, lambda m: m.built.water.releaseDistance, math.inf),
+        ({("water", "release"): {"by": "slip_or_dilatancy"}}, lambda m: m.built.water.releaseDistance, 0.5),
+        ({("water", "release"): {"by": "slip"}}, lambda m: m.built.water.releaseDistance, 0.5),
+    ],
+    ("water", "release", "dilation"): (
+        {("water", "release"): {"by": "dilatancy", "dilation": 0.05}},
+        lambda m: WaterRelease(m.built).rule.dilation,
+        0.05,
+    ),
+    # d² of these disks has the mean 1 · 2
+    ("water", "release", "over"): (
+        {("water", "release"): {"by": "dilatancy", "over": 2}},
+        lambda m: WaterRelease(m.built).reach,
+        pytest.approx(2 * math.sqrt(2)),
+    ),
+    ("water", "release", "drainage_time"): (
+        {("water", "release"): {"by": "dilatancy", "drainage_time": 7}},
+        lambda m: WaterRelease(m.built).rule.drainage_time,
+        7.0,
+    ),
     **{
         ("shaking", key): (
             {("shaking",): SHAKEN | change},

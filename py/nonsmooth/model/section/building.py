@@ -14,6 +14,8 @@ from . import (
     shaking as section_shaking,
     units as section_units,
     values as section_values,
+    water as section_water,
+    water_release,
 )
 from .section import Section
 from .parts import (
@@ -39,7 +41,9 @@ def build(document, source: str) -> Section:
     section_checks.check_extent(document)
     _take_old_names(document)
     section_shaking.complete(document)
+    section_water.complete(document)
     section_units.check(document)
+    kind = section_water.kind_of(document) if "water" in document.data else None
     given = copy.deepcopy(document.data)
     raw = document.data = section_defaults.filled(document.data)
     walls = section_checks.walls(document)
@@ -74,7 +78,7 @@ def build(document, source: str) -> Section:
         stages=Stages(
             Settle(**{k: v if k == "bond" else float(v) for k, v in stages["settle"].items()}),
             float(stages["dry"]),
-            stages.get("water", {}).get("hold", "motion"),
+            stages.get("water", {}).get("hold", "motion") if kind in (None, "table") else "never",
             End(**_floats(stages["end"])),
         ),
         numerics=Numerics(**raw["numerics"]),
@@ -88,7 +92,9 @@ def build(document, source: str) -> Section:
     section_checks.check(section, document)
     section_shaking.check_end(section, document)
     if "water" in raw:
-        section = dataclasses.replace(section, water=_water(raw["water"], section, document))
+        water = _water(raw["water"], section, document) if kind == "table" else section_water.read(document)
+        section = dataclasses.replace(section, water=water)
+        section_water.check(section, document)
     section = dataclasses.replace(section, walls=roles.assigned(section))
     section_checks.check_roles(section, document)
     if "water" in raw:
@@ -213,4 +219,5 @@ def _water(raw: dict, section: Section, document) -> Water:
         float(table.get("rate", 0.0)),
         raw["release_distance"] if isinstance(raw["release_distance"], str) else float(raw["release_distance"]),
         wall.name if wall else None,
+        water_release.read(raw, document),
     )

@@ -118,7 +118,7 @@ def notes(section: Section) -> list[str]:
 
 def _release_notes(section):
     slips, release = section.critical_slips, section.release_distance
-    if release is None or not slips or release in slips.values():
+    if release is None or math.isinf(release) or not slips or release in slips.values():
         return
     listed = ", ".join(f"{value:g} m ({name})" for name, value in slips.items())
     yield (
@@ -129,7 +129,7 @@ def _release_notes(section):
 
 def _water_notes(section):
     """A sign that was not meant shows as water that runs up the slope."""
-    water = section.water
+    water = section.water_table
     if water is None:
         return
     if water.wall is None and abs(water.dip) >= 1 and abs(section.dip) >= 1 and water.dip * section.dip < 0:

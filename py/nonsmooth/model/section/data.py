@@ -9,7 +9,7 @@ import dataclasses
 import yaml
 
 from ...system.whole_files import write_atomically
-from . import erosion, shaking as section_shaking
+from . import erosion, shaking as section_shaking, water as section_water, water_release
 
 __all__ = ["FILE", "material", "plain", "write"]
 
@@ -68,7 +68,7 @@ def plain(section) -> dict:
         "stages": {
             "settle": dataclasses.asdict(stages.settle),
             "dry": stages.dry,
-            "water": {"hold": stages.water_hold},
+            **({} if section.water_field else {"water": {"hold": stages.water_hold}}),
             "end": dataclasses.asdict(stages.end),
         },
         "numerics": {k: v for k, v in dataclasses.asdict(section.numerics).items() if v is not None},
@@ -79,7 +79,9 @@ def plain(section) -> dict:
         data["unusual"] = list(section.unusual)
     if not section.interfaces:
         del data["interfaces"]
-    if water is not None:
+    if section.water_field is not None:
+        data["water"] = section_water.plain(water)
+    elif water is not None:
         # the rate goes on from the last point, and a file has one of the two
         table = {"rate": water.rate} if water.table == ((0.0, 0.0),) else {"points": [list(p) for p in water.table]}
         data["water"] = {
@@ -94,6 +96,7 @@ def plain(section) -> dict:
             "table": table,
             "release_distance": water.release_distance,
         }
+        data["water"] |= water_release.plain(water.release)
     if section.shaking is not None:
         data["shaking"] = section_shaking.plain(section.shaking)
     return data

@@ -16,6 +16,7 @@ from ..scales import AREA, GRAVITY
 __all__ = ["filled", "release_distance"]
 
 WATER_DENSITY = 1000.0  # kg/m³
+RELEASE = {"dilation": 0.03, "over": 3.0}  # by dilatancy
 
 
 def filled(data: dict) -> dict:
@@ -49,11 +50,13 @@ def filled(data: dict) -> dict:
     if "water" in data:
         made["water"] = {
             "unit_weight": WATER_DENSITY * gravity,
-            "pressure_gradient": "parallel_seepage",
             "volume": "disk",
             "release_distance": "critical_slip",
+            **({"pressure_gradient": "parallel_seepage"} if "table" in data["water"] else {}),
             **data["water"],
         }
+        if data["water"].get("release", {}).get("by", "slip") != "slip":
+            made["water"]["release"] = {**RELEASE, **data["water"]["release"]}
     return made
 
 

@@ -35,24 +35,27 @@ HINTS = (
         "lines of the water table",
         "phreatic phreatic_line phreatic_surface piezometric piezometric_line piezometric_surface piezometer groundwater ground_water groundwater_level gwl water_table water_level head "
         "hydraulic_head total_head",
-        "the water table of a section is a straight line, parallel to `water.plane`: give water: {plane: NAME, table: {points: [[t, h], ...]}}, with h the height above the plane, along its normal",
+        "lines are given below `water`: water: {phreatic: {lines: [{time: s, points: [[x, y], ...]}, ...]}}; a table "
+        "parallel to a plane as water: {plane: NAME, table: {points: [[t, h], ...]}}, with h the height above the "
+        "plane, along its normal",
     ),
     Hint(
         "reservoirs",
         "reservoir reservoir_level lake lake_level pond pool sea sea_level tailwater drawdown",
-        "give still water with a level table: water: {plane: {point: [0, y], dip: 0}, pressure_gradient: hydrostatic, release_distance: 1e6, table: {points: [[t, h], ...]}}, with the level at y + h; "
-        "h may fall, and water inside the slope and outside then falls alike",
+        "a reservoir is a level in the states of seepage: water: {seepage: {size: m, conductivity: m/s, states: [{time: "
+        "s, reservoir: level}, ...]}}, with drained: false for a rapid drawdown; or a phreatic line that is level over the ground",
     ),
     Hint(
         "pore pressure ratios",
         "ru r_u pore_pressure pore_pressures pore_pressure_ratio pore_pressure_coefficient pwp bbar suction",
-        "a section takes heights of the water table and no pore pressures: with the ratio ru give water.volume: bulk and in water.table the height h = ru γ H / (γ_w cos² β), H being the thickness "
+        "a section takes a water table, lines, or pressures of files (water.field), and no ratio: with the ratio ru give water.volume: bulk and in water.table the height h = ru γ H / (γ_w cos² β), H being the thickness "
         "along the normal of the slip surface, β its dip, and γ the unit weight of the rock",
     ),
     Hint(
         "flow of water",
         "rain rainfall infiltration recharge permeability conductivity hydraulic_conductivity k_sat ksat storage seepage consolidation drainage drain drains",
-        "a section computes no flow of water: give the height of the table over time in water.table.points, as a gauge or a flow computation has it, and the gradient in water.pressure_gradient",
+        "steady flow is computed by `water.seepage`: {size: m, conductivity: m/s, states: [{time: s, rain: m/s, "
+        "reservoir: m, boundaries: [...]}, ...]}; no water is stored",
     ),
     Hint(
         "strengths outside of a material",

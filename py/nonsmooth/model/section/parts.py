@@ -176,6 +176,21 @@ class Disks:
 
 
 @dataclass(frozen=True)
+class Release:
+    """Release of pore pressure `by` "dilatancy" or "slip_or_dilatancy" (paper, section 5.4; `course.dilatancy`).
+
+    `dilation`: fall of the area share of disks around a disk since failure, by what it was, that releases all of its
+    water; `over`: radius of that neighbourhood in mean diameters; `drainage_time` [s], in which water flows back, None:
+    never.
+    """
+
+    by: str
+    dilation: float
+    over: float
+    drainage_time: float | None = None
+
+
+@dataclass(frozen=True)
 class Water:
     """Water table above a plane (paper, sections 3.4, 5.4).
 
@@ -183,7 +198,8 @@ class Water:
     `pressure_gradient`: "parallel_seepage", "hydrostatic", or ∇p (x, y) [N/m³]; a wet disk bears
     −∇p V; `volume` V "disk" or "bulk"; `table`: points (t, h) [s, m]; `rate` [m/s], the rise after
     the last point; `release_distance`: "critical_slip", that of the slip surface (see
-    `Section.release_distance`), or [m]; `wall`: name of the wall the plane was given by, or None.
+    `Section.release_distance`), or [m]; `wall`: name of the wall the plane was given by, or None; `release`: None
+    where slip alone releases.
     """
 
     unit_weight: float
@@ -195,6 +211,7 @@ class Water:
     rate: float
     release_distance: str | float
     wall: str | None = None
+    release: Release | None = None
 
     @property
     def normal(self) -> tuple[float, float]:

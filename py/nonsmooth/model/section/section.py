@@ -16,6 +16,7 @@ from ...system import checks
 from .. import free_surface, geometry, roles, stacks
 from . import data as section_data, values as section_values
 from .erosion import Window
+from .field_water import FieldWater
 from .parts import Disks, Envelope, Interface, Layer, Material, Numerics, Stages, Wall, Water, normal_of
 from .reader import SectionError
 from .shaking import Shaking
@@ -44,7 +45,7 @@ class Section:
     layers: tuple[Layer, ...]
     materials: Mapping[str, Material]
     disks: Disks
-    water: Water | None
+    water: Water | FieldWater | None
     stages: Stages
     numerics: Numerics
     seed: int
@@ -188,13 +189,27 @@ class Section:
         return {name: law.critical_slip for name, law in weak.items() if law}
 
     @property
+    def water_table(self) -> Water | None:
+        """The water where it is a table above a plane; None where it has a field of pressures, or is not there."""
+        return self.water if isinstance(self.water, Water) else None
+
+    @property
+    def water_field(self) -> FieldWater | None:
+        """The water where it has a field of pressures (:mod:`.section.water`); None where it is a table, or is not
+        there.
+        """
+        return self.water if isinstance(self.water, FieldWater) else None
+
+    @property
     def release_distance(self) -> float | None:
         """Way downslope [m] that releases a disk from water for good: the water's own, or where that is "critical_slip"
         the D_c of the slip surfaces that weaken (paper, section 5.4: one distance for both), of the water's plane where
-        they have several. None without water.
+        they have several. None without water, infinite where local dilatancy alone releases.
         """
         if self.water is None:
             return None
+        if self.water.release is not None and self.water.release.by == "dilatancy":
+            return math.inf
         if self.water.release_distance != "critical_slip":
             return self.water.release_distance
         slips = self.critical_slips

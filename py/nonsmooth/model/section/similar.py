@@ -13,6 +13,7 @@ import math
 
 from ...system import checks
 from . import building as section_building, data as section_data, shaking as section_shaking, values as section_values
+from . import water as section_water
 from .reader import SectionError
 from .section import Section
 from .reader import Document
@@ -39,6 +40,25 @@ POWERS = {
     "water.table.rate": SPEED,
     "water.table.points": (TIME, LENGTH),
     "water.release_distance": LENGTH,
+    "water.release.drainage_time": TIME,
+    "water.phreatic.lines.time": TIME,
+    "water.phreatic.lines.points": LENGTH,
+    "water.seepage.size": LENGTH,
+    "water.seepage.conductivity": SPEED,
+    "water.seepage.conductivity.*": SPEED,
+    "water.seepage.conductivity.*.along": SPEED,
+    "water.seepage.conductivity.*.across": SPEED,
+    "water.seepage.states.time": TIME,
+    "water.seepage.states.reservoir": LENGTH,
+    "water.seepage.states.rain": SPEED,
+    "water.seepage.states.boundaries.line": LENGTH,
+    "water.seepage.states.boundaries.head": LENGTH,
+    "water.seepage.states.boundaries.pressure_head": LENGTH,
+    "water.seepage.states.boundaries.reservoir": LENGTH,
+    "water.seepage.states.boundaries.inflow": SPEED,
+    "water.field.scale": LENGTH,
+    "water.field.stretch": TIME,
+    "water.field.states.time": TIME,
     "erosion.vertices": LENGTH,
     "erosion.begin": TIME,
     "erosion.end": TIME,
@@ -63,6 +83,7 @@ _OF_A_PACKING = checks.takes(
     SectionError, packing=checks.has("x y r", "give a Packing, as packing.of(section) returns one")
 )
 _NAMED = ("walls", "layers", "interfaces", "materials", "erosion")  # whose items have names
+_BY_LAYER = "water.seepage.conductivity"  # whose keys are names of layers
 
 
 @_OF_A_SECTION
@@ -91,6 +112,7 @@ def _mirrored(data):
     if isinstance(water.get("plane"), dict):
         point, dip = water["plane"]["point"], water["plane"]["dip"]
         water["plane"] = {"point": flipped([point])[0], "dip": 0.0 - dip}
+    section_water.mirror(water)
     if isinstance(water.get("pressure_gradient"), list):
         x, y = water["pressure_gradient"]
         water["pressure_gradient"] = [0.0 - x, y]
@@ -165,7 +187,10 @@ def original_value(key, value, factor):
     words = section_values.words(key)
     if len(words) == 1:
         return _scaled({words[0]: value}, 1 / factor)[words[0]]
-    return _value(".".join(words[:1] + words[2:] if words[0] in _NAMED else words), value, 1 / factor)
+    key = ".".join(words[:1] + words[2:] if words[0] in _NAMED else words)
+    if key.startswith(f"{_BY_LAYER}."):
+        key = ".".join((_BY_LAYER, "*", *words[4:]))
+    return _value(key, value, 1 / factor)
 
 
 def _scaled(data, factor):
@@ -183,7 +208,10 @@ def _scaled(data, factor):
 
 def _value(key, value, factor):
     if isinstance(value, dict):
-        return {word: _value(f"{key}.{word}", inside, factor) for word, inside in value.items()}
+        each = key == _BY_LAYER
+        return {word: _value(f"{key}.{'*' if each else word}", inside, factor) for word, inside in value.items()}
+    if isinstance(value, list) and all(isinstance(item, dict) for item in value):
+        return [_value(key, item, factor) for item in value]
     power = POWERS.get(key)
     return copy.deepcopy(value) if power is None else _times(value, power, factor)
 

@@ -27,6 +27,7 @@ OF_TEST = (
     "strain_peak",
     "opening_peak_d",
     "work_J_per_m2",
+    "work_bonds_rel",
     "weakest_cut_rel",
     "break_height_rel",
     "break_angle_deg",
@@ -66,6 +67,7 @@ def measure(test, folder):
     found = json.loads((folder / "result.json").read_text())["found"]
     series = records.read_series(folder / "series.csv")
     c = tensile.curve(series, test.yielding, found["width_m"])
+    bonds = series.get("energy_bonds_J")  # soft contacts sum up no energies
     begin, end = (records.read_snapshot(folder / "snapshots" / f"{name}.npz") for name in ("begin", "end"))
     return {
         "seed": test.shape.seed,
@@ -75,6 +77,7 @@ def measure(test, folder):
         "strain_peak": c.strain,
         "opening_peak_d": c.opening / test.diameter,
         "work_J_per_m2": c.work,
+        "work_bonds_rel": float(bonds[-1] / series["work_J"][-1]) if bonds is not None else None,
         "stress_end_rel": c.end_rel,
         "platen_difference_rel": c.imbalance,
         "bonds_broken": records.broken_bonds(series),

@@ -20,6 +20,7 @@ NUMBERS = {
     "weakest_cut_rel": ("weakest cut / σ_ext", 1, 3),
     "strain_peak": ("strain at the peak [‰]", 1e3, 2),
     "work_J_per_m2": ("work [kJ/m²]", 1e-3, 2),
+    "work_bonds_rel": ("of it in bonds [%]", 100, 0),
     "break_height_rel": ("break at height [%]", 100, 0),
     "break_angle_deg": ("inclination [°]", 1, 0),
     "break_thickness_d": ("thickness [d]", 1, 1),

@@ -14,6 +14,8 @@ __all__ = ["CONTROLS", "draw"]
 
 #: Variants that stand beside the shipped slope in the first figure, as far as they have run.
 CONTROLS = ("no-weakening", "no-release")
+#: Those whose release stands beside that of the shipped slope in another, and when they are drawn [s] after t2.
+RELEASES, RELEASED = ("dilatancy", "slip-or-dilatancy"), 6.0
 
 
 def draw(found, out) -> list:
@@ -24,6 +26,9 @@ def draw(found, out) -> list:
     if not runs:
         return []
     made = [figures.with_and_without(_beside(found), out / "paper_controls.png")]
+    released = _releases(found)
+    if len(released) > 1:
+        made.append(figures.releases(released, out / "paper_release.png"))
     first = runs[0]
     moved = [run for run in runs if run.summary["times_s"]["t2"] is not None]
     if moved:
@@ -62,6 +67,18 @@ def _beside(found):
             cases.append(
                 (VARIANTS[name].label, lines, runs[0].snapshot("t0"), runs[0].snapshot("end"), runs[0].section)
             )
+    return cases
+
+
+def _releases(found):
+    """Cases of figures.releases, of those whose first packing has accelerated."""
+    cases = []
+    for name in (SHIPPED, *RELEASES):
+        runs = found.get(name, ())
+        if runs and runs[0].summary["times_s"]["t2"] is not None:
+            lines = [(run.series, run.summary["times_s"]) for run in runs]
+            shot = runs[0].snapshot(runs[0].summary["times_s"]["t2"] + RELEASED)
+            cases.append((VARIANTS[name].label, lines, shot, runs[0].section))
     return cases
 
 

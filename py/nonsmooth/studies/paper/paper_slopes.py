@@ -15,13 +15,29 @@ from pathlib import Path
 
 from ...campaign.plan import SEED, VERDICT, Plan, PlanError, Planned, numbers as numbers_of
 from ...campaign.sweep import FUNCTION, arguments_of
+from ...measure import force_stages
 from ...measure.statistics import over_seeds, told
 from ...model import section
 from ...model.section import values as section_values
 from ...system import checks
 from ..runs import open_run
 
-__all__ = ["DISKS", "SECTION", "SEEDS", "SHIPPED", "VARIANTS", "Variant", "check", "rows", "run", "slope_of", "table"]
+__all__ = [
+    "CHANGES",
+    "DISKS",
+    "SECTION",
+    "SEEDS",
+    "SHIPPED",
+    "TIMES",
+    "VARIANTS",
+    "Variant",
+    "changes",
+    "check",
+    "rows",
+    "run",
+    "slope_of",
+    "table",
+]
 
 SECTION, SHIPPED, HELD = "jiufengershan", "shipped", "held"
 DISKS, SEEDS = 3000, (1, 2, 3, 4, 5)
@@ -29,6 +45,7 @@ NAME = "variant"
 BEYOND = 1e5  # m, that nothing comes to
 D_C = "materials.dp.slip_weakening.critical_slip"
 RELEASE = "water.release_distance"
+BY, DILATION, DRAINAGE = "water.release.by", "water.release.dilation", "water.release.drainage_time"
 TABLE = "water.table"
 
 
@@ -51,6 +68,10 @@ VARIANTS = {
     "no-release": Variant("water stays in the mass", "[113]", {RELEASE: BEYOND}),
     "release-10": Variant("release from water after 10 m", "[113]", {RELEASE: 10.0}),
     "release-2.5": Variant("release from water after 2.5 m", "[113]", {RELEASE: 2.5}),
+    "dilatancy": Variant("release by dilatancy, 3 %", "[113]", {BY: "dilatancy"}),
+    "dilatancy-5": Variant("release by dilatancy, 5 %", "[113]", {BY: "dilatancy", DILATION: 0.05}),
+    "drained": Variant("release by dilatancy, water back in 2 s", "[113]", {BY: "dilatancy", DRAINAGE: 2.0}),
+    "slip-or-dilatancy": Variant("release by slip or dilatancy", "[113]", {BY: "slip_or_dilatancy"}),
     "neither": Variant("neither weakening nor release", "[72], [126]", {D_C: BEYOND, RELEASE: BEYOND}),
     HELD: Variant("table stops at t1", "[115], [116]", stops_at="water_at_failure_m"),
 }
@@ -133,11 +154,12 @@ def rows(found) -> list:
     how many slopes there are, ``verdicts`` ({what became of a slope: how many}), ``weakened``, of how many the slip
     surface came to D_c, and ``numbers``, {name of a number of the summary, those of its dictionaries as ``key.key``: as
     statistics.over_seeds has it over the slopes that have it, with ``of``, how many these are}. Among these are
-    ``triggering_by_speed_s`` and ``motion_by_speed_s``, t3 − t2 and t5 − t3 by other thresholds of speed.
+    ``triggering_by_speed_s`` and ``motion_by_speed_s``, t3 − t2 and t5 − t3 by other thresholds of speed;
+    ``water_halved_s``, see force_stages.water_halved; and ``since_t0_s``, t1 to t5 counted from t0.
     """
     found_rows = []
     for name, runs in found.items():
-        summaries = [numbers_of(one.summary | _durations(one.summary)) for one in runs]
+        summaries = [numbers_of(one.summary | _durations(one)) for one in runs]
         kinds = [one.get(VERDICT) for one in summaries]
         numbers = {}
         for key in dict.fromkeys(key for one in summaries for key in one):
@@ -162,11 +184,13 @@ def rows(found) -> list:
     return found_rows
 
 
-def _durations(summary):
+def _durations(run):
     """Triggering and motion as other rules for t2 and t5 have them [s], by the thresholds of
-    characteristic_times.by_threshold.
+    characteristic_times.by_threshold; and what else :func:`rows` adds to a summary.
     """
-    t3 = summary.get("times_s", {}).get("t3")
+    summary = run.summary
+    times = summary.get("times_s", {})
+    t3 = times.get("t3")
 
     def known(name):
         return summary.get(name, {}).items()
@@ -177,6 +201,8 @@ def _durations(summary):
     return {
         "triggering_by_speed_s": {percent: less(t3, t2) for percent, t2 in known("t2_by_speed_s")},
         "motion_by_speed_s": {percent: less(t5, t3) for percent, t5 in known("t5_by_speed_s")},
+        "since_t0_s": {name: less(time, times.get("t0")) for name, time in times.items() if name != "t0"},
+        "water_halved_s": None if times.get("t2") is None else force_stages.water_halved(run.series, times),
     }
 
 
@@ -193,18 +219,46 @@ SHOWN = {
 }
 
 
-def table(rows):
+#: The same of times.
+TIMES = {f"since_t0_s.t{k}": (f"t{k} [s]", 1, 1) for k in range(1, 6)} | {
+    "water_halved_s": ("water halved after t2 [s]", 1, 1),
+    "triggering_s": ("t3 - t2 [s]", 1, 1),
+}
+CHANGES = {name: SHOWN[name] for name in ("centroid_travel_m", "front_travel_m", "speed_mean_max_m_per_s")}
+
+
+def changes(rows):
+    """What each variant changes of the shipped slope, as :func:`rows` has it: the rows of the variants with the
+    differences of ``numbers`` from those of the shipped slope of the same packing. None of them without that slope.
+    """
+    shipped = next((row for row in rows if row["name"] == SHIPPED), None)
+    made = []
+    for row in rows:
+        if shipped is None or row is shipped:
+            continue
+        numbers = {}
+        for key in (key for key in row["numbers"] if key in shipped["numbers"]):
+            pairs = zip(row["numbers"][key]["values"], shipped["numbers"][key]["values"], strict=True)
+            values = [None if None in pair else float(pair[0]) - float(pair[1]) for pair in pairs]
+            there = [value for value in values if value is not None]
+            if there:
+                numbers[key] = over_seeds(there) | {"values": values, "of": len(there)}
+        made.append(row | {"numbers": numbers})
+    return made
+
+
+def table(rows, shown=SHOWN):
     """(heads, lines) of texts for what :func:`rows` returned, a line for each variant; a mean of fewer than all slopes
-    has their number behind it.
+    has their number behind it. ``shown``: SHOWN, TIMES or CHANGES.
     """
     lines = []
     for row in rows:
         count = sum(row["verdicts"].values())
         kinds = ", ".join(f"{number} {kind}" for kind, number in row["verdicts"].items())
         cells = []
-        for name, (_, factor, digits) in SHOWN.items():
+        for name, (_, factor, digits) in shown.items():
             found = row["numbers"].get(name)
             text = "–" if found is None else told(found["mean"], found["half_width"], digits, factor)
             cells.append(text if found is None or found["of"] == count else f"{text} ({found['of']})")
         lines.append([row["label"], kinds, *cells])
-    return ["slope", "what became of it", *(head for head, _, _ in SHOWN.values())], lines
+    return ["slope", "what became of it", *(head for head, _, _ in shown.values())], lines

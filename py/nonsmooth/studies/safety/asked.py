@@ -148,6 +148,13 @@ def standing(section, table=None) -> tuple[Section, str | None]:
             )
         return section, None
     note = None
+    if section.water_field is not None:
+        if table is not None:
+            raise SafetyError(
+                f"--table {table:g}: {section.source} has no water table, but a field of water, whose last state "
+                "stays; leave --table out"
+            )
+        return section, None
     if table is None:
         if section.water.rate == 0 or not isinstance(section.stages.water_hold, str):
             return section, None

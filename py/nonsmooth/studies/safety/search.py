@@ -23,6 +23,7 @@ from ...course import driver, strength_reduction as reduction
 from ...model import scales
 from ...model.section import data as section_data
 from ...records import checkpoints
+from ...water import of_section
 from ...world import tables
 from ...world.stepping import advance
 from ..slope import slope
@@ -234,7 +235,8 @@ def run(asked, folder, progress=lambda share, doing: None) -> dict:
 def _loaded(asked, folder, progress):
     """Loads the slope until it stands at some factor: the SearchState then, and what a :class:`Search` begins with."""
     state, rules = reduction.SearchState(), asked.rules()
-    section_data.write(asked.section, _made(folder) / section_data.FILE)
+    kept = of_section.kept(asked.section, of_section.field(asked.section), _made(folder))
+    section_data.write(kept, folder / section_data.FILE)
     while state.stable is None and state.outcome is None:
         factor = state.factor
 

@@ -2,7 +2,7 @@
 
 from ...records.columns import BONDS, STEP, TIME, Column, count, declared
 
-__all__ = ["COLUMNS", "ERODING", "FURTHER", "LEDGER_COLUMNS", "OF_SHAKING", "PERMANENT", "WALL_COLUMNS"]
+__all__ = ["COLUMNS", "ERODING", "FURTHER", "LEDGER_COLUMNS", "OF_SHAKING", "PERMANENT", "RELEASED", "WALL_COLUMNS"]
 
 #: Of ``series.csv``: {name: Column}. Where slip surfaces lie one above another, each has some of them for itself, see
 #: :data:`.records.columns.OWN`.
@@ -10,7 +10,12 @@ COLUMNS = declared(
     STEP,
     TIME,
     count("stage", "stage of the run in the step: 0 settling, 1 dry rest, 2 water or avalanche"),
-    Column("water_m", "m", "height of the water table above its plane (DP), h_w"),
+    Column(
+        "water_m",
+        "m",
+        "height of the water table above its plane (DP), h_w; of a field of water the mean pressure head p/γ_w on the slip "
+        "surfaces",
+    ),
     Column(
         "dp_normal_total_N_per_m",
         "N/m",
@@ -75,6 +80,13 @@ COLUMNS = declared(
     Column(
         "energy_error_rel", "1", "what the energy balance leaves over, relative; 0 while settling, as it begins then"
     ),
+)
+
+#: Of a section whose water local dilatancy releases, besides.
+RELEASED = Column(
+    "water_released_rel",
+    "1",
+    "share that local dilatancy has released of the pressure on disks that water has acted on, by their area",
 )
 
 #: Of a section that shakes, besides: {name: Column}.

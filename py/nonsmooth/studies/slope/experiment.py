@@ -30,13 +30,15 @@ from ...model.section import Section, data as section_data
 from ...packing.files import Packing
 from ...records import checkpoints
 from ...system import checks, keys
-from ...world import tables, worlds
+from ...water import WaterError, field_files, of_section
+from ...world import pore_pressure, tables, worlds
 from ...world.stepping import advance
 from . import attached, frames, results, slope, slope_packing
 from .attached import come_to, row  # noqa: F401  a scene's CourseRunner calls experiment.row
 from .columns import COLUMNS
 from .error import ArgumentError, EndError, ExperimentError
 from .monitoring import SlopeMonitor
+from .water_release import WaterRelease
 
 __all__ = ["ArgumentError", "EndError", "Experiment", "ExperimentError", "State", "COLUMNS", "begin", "resume"]
 
@@ -47,21 +49,27 @@ class Experiment(driver.Course):
     ``progress``: called with (stage, seconds simulated, seconds foreseen) after every row. ``damping_moving``: of soft
     contacts, instead of their world's while the slope moves. A slope of soft contacts has no checkpoints. ``state``,
     ``mark``: of a checkpoint, see :func:`resume`; without them the records of an earlier run in ``folder`` are removed.
+    ``field``: the section's pore pressures (:func:`.water.of_section.field`), found anew unless given.
     """
 
-    def __init__(self, built, folder, state=None, layers=None, progress=None, damping_moving=None, mark=None):
+    def __init__(
+        self, built, folder, state=None, layers=None, progress=None, damping_moving=None, mark=None, field=None
+    ):
         if not isinstance(built, slope.Slope):
             raise UserError(f"built {checks.shown(built)}: give a Slope, as slope.build(section) returns one")
         folder = checks.path("folder", folder, UserError, "give the path of a folder")
         if state is None:
             results.check_folder(folder)
-        self.monitor = SlopeMonitor(built, layers)
+        self.field = of_section.field(built.section) if field is None else field
+        self.monitor = SlopeMonitor(built, layers, self.field)
         self.hard, self.layers = self.monitor.hard, self.monitor.layers
         worlds.check_damping("hard" if self.hard else "soft", damping_moving)
         self.slope, self.section, self.folder = built, built.section, Path(folder)
         self.state = state or State()
         self.progress = progress or (lambda *_: None)
         self.scales = scales.of(self.section)
+        by_dilatancy = self.section.water is not None and self.section.water.release is not None
+        self.release = WaterRelease(built, mark and mark["release"]) if by_dilatancy else None
         self.stands = False  # see run
         self.unsaved = None if self.hard else "a slope of soft contacts"
         if state is None:
@@ -73,7 +81,8 @@ class Experiment(driver.Course):
             self.folder / "series.csv", self.monitor.columns, resume_from=mark and mark["series"], overwrite=True
         )
         if state is None:  # after the series, by which a run's folder is known
-            section_data.write(self.section, self.folder / section_data.FILE)
+            kept = of_section.kept(self.section, self.field, self.folder)
+            section_data.write(kept, self.folder / section_data.FILE)
         self.walls = self.monitor.open_walls(self.folder / "walls.csv", mark and mark["walls"])
         self.eroding = self.monitor.open_ledger(self.folder / results.LEDGER, mark and mark["eroded"])
         if state is None:
@@ -201,7 +210,8 @@ class Experiment(driver.Course):
         solver = self.slope.solver
         disks = tables.bodies(solver)
         self.monitor.inside(disks, self.folder)
-        seen = self.monitor.seen(self.state, disks, not self.stands)
+        more = not self.stands or (self.release is not None and self.release.relaxes)
+        seen = self.monitor.seen(self.state, disks, more)
         s = self.state = course.noted(self.state, seen, self.scales)
         s.overlap_mean_worst = max(s.overlap_mean_worst, solver.overlapMean)
         values, regular = self.monitor.row(s, disks), course.keeps_frame(s, row)
@@ -229,6 +239,11 @@ class Experiment(driver.Course):
         table = course.water_table(self.state, self.section)
         if table != course.water_table(before, self.section):
             self.slope.water.times, self.slope.water.heights = table
+        begin = course.field_begin(self.state, self.section)
+        if begin != course.field_begin(before, self.section):
+            self.slope.water.field = pore_pressure.field(self.field, begin)
+        if self.release is not None:  # before disks go, and a checkpoint is written
+            self.release.look(disks, self.state.moving is not None)
         due = erosion.due(before, self.state, self.section)
         if due:
             x, y = self.monitor.take_out(due, tables.bodies(self.slope.solver))
@@ -296,7 +311,7 @@ class Experiment(driver.Course):
     # ---- records ------------------------------------------------------------------------------
     def snapshot(self, path, contacts=False):
         """Writes the present state; with ``contacts`` also the forces."""
-        self.monitor.snapshot(path, contacts)
+        self.monitor.snapshot(path, self.state, contacts)
 
     # ---- checkpoints --------------------------------------------------------------------------
     def checkpoint(self):
@@ -319,6 +334,7 @@ class Experiment(driver.Course):
                     "series": self.series.mark(),
                     "wall_series": self.walls.file.mark(),
                     "eroded": self.eroding and self.eroding.file.mark(),
+                    **({"release": self.release.content()} if self.release is not None else {}),
                 },
             )
         self.frames.saved()
@@ -353,6 +369,7 @@ def begin(section, folder, progress=None, packing=None, world=None, damping_movi
     folder = Path(folder)
     results.check_folder(folder)
     folder.mkdir(parents=True, exist_ok=True)
+    field = of_section.field(section)
     began = time.monotonic()
     packed = slope_packing.of(section) if packing is None else packing
     seconds = time.monotonic() - began
@@ -362,7 +379,7 @@ def begin(section, folder, progress=None, packing=None, world=None, damping_movi
         O.dt = row / math.ceil(row / O.dt)
     if strengths is not None:
         slope.set_strengths(built, strengths, world)
-    course = Experiment(built, folder, progress=progress, damping_moving=damping_moving)
+    course = Experiment(built, folder, progress=progress, damping_moving=damping_moving, field=field)
     course.state.wall_packing_s = seconds
     return course
 
@@ -380,7 +397,11 @@ def run_key(section):
     return keys.key_of(
         {
             "key": section.key("settled"),
-            "water": asdict(section.water) if section.water else None,
+            "water": section.water_field.key
+            if section.water_field
+            else asdict(section.water)
+            if section.water
+            else None,
             "stages": asdict(section.stages),
             "seed": section.seed,
             "roles": [[item.name, item.role] for item in (*section.walls, *section.layers, *section.interfaces)],
@@ -409,6 +430,11 @@ def resume(section, folder, progress=None):
     for name, one in mark.items():
         if one is not None:
             records.kept(Path(folder) / f"{name}.csv", one)  # all of them, before any is written to
+    mark["release"] = content.get("release")
     O.engines = attached.others()  # without that of the run that saved it
     built = slope.find(section, content["walls"], content["first_disk"], content["count"])
-    return Experiment(built, folder, state=state, progress=progress, mark=mark)
+    try:
+        field = None if section.water_field is None else field_files.read(Path(folder) / of_section.FILE)
+    except WaterError as error:
+        raise ExperimentError(f"{error}; the run wrote this file when it began: run again without --resume") from None
+    return Experiment(built, folder, state=state, progress=progress, mark=mark, field=field)

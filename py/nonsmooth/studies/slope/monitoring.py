@@ -12,11 +12,12 @@ from ... import course, packing, records
 from ...course import triggers
 from ...measure import surface_slip
 from ...measure.fronts import front_of
+from ...measure.pressure_heads import SlipHeads
 from ...model import scales
 from ...records.columns import without
 from ...world import tables
 from . import slope
-from .columns import COLUMNS, ERODING, OF_SHAKING, PERMANENT
+from .columns import COLUMNS, ERODING, OF_SHAKING, PERMANENT, RELEASED
 from .eroding import Eroding
 from .error import ExperimentError
 from .wall_series import WallSeries
@@ -44,15 +45,18 @@ class SlopeMonitor:
     """Of a built :class:`~nonsmooth.studies.slope.slope.Slope` and its disks' ``layers`` (count,), unless given as the
     scene has them.
 
+    ``field``: the section's pore pressures in the time since t0, a MeshField, or None;
     ``walls``: its WallSeries, once :meth:`open_walls` has been called; ``eroding``: its Eroding, once
     :meth:`open_ledger` has, where the section has windows that take disks out; ``columns``: those of the rows, {name:
-    Column};
-    ``hard``: whether its disks are rigid; ``mass``: which disks are of the mass, bool (count,), None: all. ``disks``
-    and ``t`` are the table of :func:`.tables.bodies`, of those that are there.
+    Column}; ``hard``: whether its disks are rigid; ``by_dilatancy``: whether local dilatancy releases its water;
+    ``mass``: which disks are of the mass, bool (count,), None: all. ``disks`` and ``t`` are the table of
+    :func:`.tables.bodies`, of those that are there.
     """
 
-    def __init__(self, built, layers=None):
+    def __init__(self, built, layers=None, field=None):
         self.slope, self.section, self.walls = built, built.section, None
+        self.field = field
+        self._slip_heads = None if field is None else SlipHeads(field, built.section)
         self.layers = slope.layers_of(built) if layers is None else layers
         self.hard = slope.is_hard(built)
         # disks of the mass, where others are bed or obstacles
@@ -72,6 +76,9 @@ class SlopeMonitor:
         if self.section.shaking is not None:
             names = [records.column(PERMANENT.name, name) for name, _ in self.section.slip_surfaces]
             self.columns = self.columns | OF_SHAKING | {name: PERMANENT._replace(name=name) for name in names}
+        self.by_dilatancy = self.section.water is not None and self.section.water.release is not None
+        if self.by_dilatancy:
+            self.columns = self.columns | {RELEASED.name: RELEASED}
 
     def open_walls(self, path, mark=None):
         """Opens the file of walls, and returns its WallSeries; ``mark``: of a checkpoint."""
@@ -120,7 +127,8 @@ class SlopeMonitor:
             O.time,
             O.dt,
             self.mean_speed(disks),
-            water.height if water else None,
+            None if self.section.water_table is None else water.height,
+            self._coming(state),
             way=0.0 if state.centre is None else abs(self.centroid(disks)[0] - state.centre) / self.section.mass_size,
             broken=(e.brokenTension + e.brokenShear + e.brokenTorque + e.brokenMixed) / made if made else 0.0,
             wet=water.wetCount if water else 0,
@@ -129,11 +137,26 @@ class SlopeMonitor:
             more=more,
         )
 
+    def _coming(self, state):
+        """Whether states of a field of water are to come."""
+        if self.field is None or (state.t0 is not None and course.field_begin(state, self.section) is None):
+            return False
+        return state.t0 is None or O.time < state.t0 + self.field.times[-1]
+
+    def water_height(self, state):
+        """Of the water table above its plane [m], 0 where it is dry; of a field of pressures their mean head on the
+        slip surfaces.
+        """
+        if self._slip_heads is None:
+            return self.slope.water.height if self.slope.water else 0.0
+        begin = course.field_begin(state, self.section)
+        return 0.0 if begin is None else self._slip_heads.mean(O.time - begin)
+
     def _top(self, t):
         """Height of the highest disk's centre above the water's plane [m]; the table acts on those whose centres are
         below it.
         """
-        water = self.section.water
+        water = self.section.water_table
         if water is None:
             return -math.inf
         (x, y), (nx, ny) = water.point, water.normal
@@ -213,14 +236,15 @@ class SlopeMonitor:
         forces, of_surfaces = self.walls.take()
         dp, fb, ss = forces["slip"], forces["backstop"], forces["ground"]
         total = water.totalForce if water else (0.0, 0.0, 0.0)
-        lift = total[0] * section.water.normal[0] + total[1] * section.water.normal[1] if water else 0.0
-        u = lift * self._share(disks, self._borne) if water else 0.0
+        normal = (section.water_table or section).normal
+        lift = total[0] * normal[0] + total[1] * normal[1] if water else 0.0
+        u = lift * self._share(disks, self._borne, state) if water else 0.0
         slip, (x, y) = self.walls.slip(), self.centroid(disks)
         row = {
             "step": O.iter,
             "time_s": O.time,
             "stage": course.STAGES.index(state.stage),
-            "water_m": water.height if water else 0.0,
+            "water_m": self.water_height(state),
             "dp_normal_total_N_per_m": dp[0] + u,
             "dp_normal_effective_N_per_m": dp[0],
             "dp_water_N_per_m": u,
@@ -250,8 +274,10 @@ class SlopeMonitor:
         }
         if self.eroding is not None:
             row |= self.eroding.columns(state)
+        if self.by_dilatancy:
+            row[RELEASED.name] = self._released(disks)
         for name, force in of_surfaces.items():
-            share = lift * self._share(disks, self._borne_by[name]) if water else 0.0
+            share = lift * self._share(disks, self._borne_by[name], state) if water else 0.0
             row |= self._of_surface(name, force, share)
         if section.shaking is not None:
             row |= self._of_shaking(disks)
@@ -277,15 +303,32 @@ class SlopeMonitor:
             )
         return values | {records.column(PERMANENT.name, name): value for name, value in slipped.items()}
 
-    def _share(self, t, part):
+    def _share(self, t, part, state):
         """The part of the water's force that acts on what slip surfaces bear: these disks, or this part of each (None:
-        all). Forces go with areas.
+        all). Forces go with areas, and in a field with the pressure's gradient along the slope's normal.
         """
         if part is None:
             return 1.0
         wet, part = tables.water(self.slope.water, self.slope.first_disk, self.slope.count)[0], self._there(part, t)
+        if self.by_dilatancy:
+            wet = wet * (1 - self._shares())
         wet = self._there(wet, t) * t["r"] ** 2
-        return float((wet[part] if part.dtype == bool else wet * part).sum() / wet.sum()) if wet.any() else 0.0
+        begin = course.field_begin(state, self.section)
+        if begin is not None:
+            gradient = self.field.gradient(np.column_stack((t["x"], t["y"])), O.time - begin, outside="dry")
+            wet = wet * (gradient[:, 0] * self.section.normal[0] + gradient[:, 1] * self.section.normal[1])
+        whole = wet.sum()
+        return float((wet[part] if part.dtype == bool else wet * part).sum() / whole) if whole else 0.0
+
+    def _shares(self):
+        """Released share of the pressure on each disk."""
+        return tables.released_shares(self.slope.water, self.slope.first_disk, self.slope.count)
+
+    def _released(self, t):
+        """The value of RELEASED."""
+        ever = tables.water(self.slope.water, self.slope.first_disk, self.slope.count)[2]
+        area, shares = self._there(ever, t) * t["r"] ** 2, self._there(self._shares(), t)
+        return float((area * shares).sum() / area.sum()) if area.any() else 0.0
 
     def _of_solver(self, state, e):
         """The columns of OF_SOLVER."""
@@ -307,8 +350,8 @@ class SlopeMonitor:
             "energy_error_rel": e.energyError / turned if turned > 0 else 0.0,
         }
 
-    def snapshot(self, path, contacts=False):
-        """Writes the present state; with ``contacts`` also the forces."""
+    def snapshot(self, path, state, contacts=False):
+        """Writes the present ``state``; with ``contacts`` also the forces."""
         path.parent.mkdir(parents=True, exist_ok=True)
         built, water = self.slope, self.slope.water
         t = tables.bodies(built.solver)
@@ -316,6 +359,8 @@ class SlopeMonitor:
         arrays = {name: t[name] for name in ("x", "y", "r", "angle", "vx", "vy")}
         of_water = zip(("wet", "released", "ever_wet"), tables.water(water, first, count))
         arrays |= {name: self._there(values, t) for name, values in of_water}
+        if self.by_dilatancy:
+            arrays["released_share"] = self._there(self._shares(), t)
         arrays["weakened"] = self._there(self.walls.weakened(), t)
         numbers = t["id"] - first
         if contacts:
@@ -326,5 +371,5 @@ class SlopeMonitor:
             for name in ("ci", "cj") if contacts else ():  # rows of this snapshot
                 disk = arrays[name] >= 0
                 arrays[name][disk] = np.searchsorted(numbers, arrays[name][disk])
-        layers, height = self._there(self.layers, t), water.height if water else 0.0
+        layers, height = self._there(self.layers, t), self.water_height(state)
         records.write_snapshot(path, time_s=O.time, step=O.iter, layer=layers, water_m=height, **arrays)

@@ -16,10 +16,13 @@ from ...measure import newmark
 from ...measure.characteristic_times import chosen_rows
 from ...model import roles, scales
 from ...system import checks
+from ...water import field_files, of_section, phreatic, section_seepage
 from . import frames, results, verdict
 from .columns import PERMANENT
 
 __all__ = ["Drawing", "draw"]
+
+PANELS = 4  # states of a field of water in its figure
 
 
 class Drawing:
@@ -77,7 +80,21 @@ class Drawing:
             times=self.times,
             window=self.window,
             progress=progress,
+            free_surface=None if self.field is None else self.free_surface,
         )
+
+    @cached_property
+    def field(self):
+        """The MeshField of the section's water in the time since t0; None where it has none, or none has acted."""
+        path = self.folder / of_section.FILE
+        if self.section.water_field is None or self.times["t0"] is None or not path.exists():
+            return None
+        return field_files.read(path)
+
+    def free_surface(self, time):
+        """Polylines of the water's free surface at a time [s] of the run."""
+        since = time - self.times["t0"]
+        return phreatic.lines(self.field.mesh, self.field.at(since)) if since > 0 else []
 
     def cases(self):
         """[(name, Snapshot)] at the characteristic times, and at the end of a slope that never fails or is stopped."""
@@ -107,7 +124,10 @@ class Drawing:
             return figures.solver(self.series, path, times=self.times)
         if name == "snapshots":
             cases = self.cases()
-            return figures.snapshots(cases, self.section, path) if cases else None
+            surface = None if self.field is None else self.free_surface
+            return figures.snapshots(cases, self.section, path, free_surface=surface) if cases else None
+        if name == "water":
+            return self._water(path)
         if name == "weakening":
             return self._weakening(path)
         if name == "toe":
@@ -123,6 +143,15 @@ class Drawing:
         if self.verdict == verdict.STOOD:  # nothing was deposited
             return None
         return figures.deposit(self.last, self.first, self.section, path) if self.last is not None else None
+
+    def _water(self, path):
+        """Pore pressures in the states of a field, at most :data:`PANELS` of them, with flow lines where it seeps."""
+        if self.field is None:
+            return None
+        own = self.field.times[self.field.pressures.any(axis=1)]
+        times = own[np.unique(np.linspace(0, len(own) - 1, min(PANELS, len(own))).round().astype(int))]
+        flow = section_seepage.flow(self.section, self.field)
+        return figures.pore_pressures(self.field, list(times), self.section, path, flow=flow)
 
     def _toe(self, path):
         """Nothing where there is no backstop, where the toe has few disks, and where the run has no snapshots of its

@@ -123,16 +123,13 @@ def build(section, packing, world=None) -> Slope:
     ids = O.bodies.append(disks)
     before = []
     if section.water is not None:
-        w = section.water
         before.append(
             PorePressureEngine(
                 label="porePressure",
-                unitWeight=w.unit_weight,
-                planePoint=Vector3(*w.point, 0),
-                planeNormal=Vector3(*w.normal, 0),
-                pressureGradient=Vector3(*w.pressure_gradient_xy, 0),
+                unitWeight=section.water.unit_weight,
                 releaseDistance=section.release_distance,
-                volumeFactor=1.0 if w.volume == "disk" else 1 / section.disks.packing_fraction,
+                volumeFactor=1.0 if section.water.volume == "disk" else 1 / section.disks.packing_fraction,
+                **_table(section),
             )
         )
     if section.shaking is not None:
@@ -157,6 +154,20 @@ def build(section, packing, world=None) -> Slope:
     layer = packing.layer[order]
     built.solver = world.measures([(m, (ids[0] + np.flatnonzero(layer == k)).tolist()) for k, m in enumerate(rocks)])
     return built
+
+
+def _table(section):
+    """Attributes of the PorePressureEngine: those of a water table; of a field, which comes at t0, the normal to the
+    way downslope alone.
+    """
+    w = section.water_table
+    if w is None:
+        return {"planeNormal": Vector3(*section.normal, 0)}
+    return {
+        "planePoint": Vector3(*w.point, 0),
+        "planeNormal": Vector3(*w.normal, 0),
+        "pressureGradient": Vector3(*w.pressure_gradient_xy, 0),
+    }
 
 
 def interface_law(slope: Slope, interface):

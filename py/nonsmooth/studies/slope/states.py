@@ -53,9 +53,9 @@ def section_of(source, disks):
     settle = dataclasses.replace(chosen.stages.settle, bond="before")
     chosen = dataclasses.replace(chosen, stages=dataclasses.replace(chosen.stages, settle=settle))
     missing = [name for name in WEAKENED if name not in {wall.name for wall in chosen.walls}]
-    if missing or chosen.water is None:
+    if missing or chosen.water_table is None:
         raise BenchmarkError(
-            f"{source}: there is no {'wall ' + missing[0] if missing else 'water'}, which the moving slope needs; take jiufengershan or a "
+            f"{source}: there is no {'wall ' + missing[0] if missing else 'water table'}, which the moving slope needs; take jiufengershan or a "
             "section made from it"
         )
     return chosen

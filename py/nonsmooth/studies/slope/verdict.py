@@ -90,7 +90,7 @@ def of(series, section, state, times, disks=None) -> Verdict:
     fast = float(np.max(series["speed_mean_m_per_s"][series["time_s"] >= moved - 1e-9]))
     table = _at(series, "water_m", moved)
     if not over and fast < scales.of(section).going_speed:
-        at = f", with {eroded}" if eroded else f", with the water table at {table:.4g} m" * (section.water is not None)
+        at = f", with {eroded}" if eroded else f", with {_height(section, table)}" * (section.water is not None)
         return Verdict(
             UNFINISHED,
             f"the run was stopped at {last:.1f} s, while the slope moved and could still have come to rest again; it began to at {moved:.1f} s{at}",
@@ -103,7 +103,7 @@ def of(series, section, state, times, disks=None) -> Verdict:
     also = _also(state, "the water")
     return Verdict(
         WATER,
-        f"the slope failed by water, with the table at {failure:.4g} m; it began to move at {moved:.1f} s{rest}{also}",
+        f"the slope failed by water, with {_height(section, failure, 'the table')}; it began to move at {moved:.1f} s{rest}{also}",
     )
 
 
@@ -194,10 +194,19 @@ def _of_water(series, section, disks, time):
         float(np.max(series[name])) if time is None else _at(series, name, time) for name in ("water_m", "wet_disks")
     )
     most = " at most" if time is None else ""
+    if not wet and section.water_field is not None:
+        return ", dry"
     if not wet:
         return f", with the water table at {table:.4g} m{most}, below all disks" if table else ", dry"
     share = f" ({100 * wet / disks:.0f} %)" if disks else ""
-    return f", with the water table at {table:.4g} m{most} and {wet:,.0f} disks wet{share}"
+    return f", with {_height(section, table)}{most} and {wet:,.0f} disks wet{share}"
+
+
+def _height(section, height, table="the water table"):
+    """How high the water stands [m], in words."""
+    if section.water_field is not None:
+        return f"a mean pressure head of {height:.4g} m on the slip surface"
+    return f"{table} at {height:.4g} m"
 
 
 def _dry(series, section, state, moved, rest):

@@ -20,6 +20,7 @@ from yade.nonsmooth.laboratory import (
     tension_report,
     tension_test,
 )
+from yade.nonsmooth.figures import tension as figures
 from yade.nonsmooth.measure import tensile
 from yade.nonsmooth.world import tables
 
@@ -321,6 +322,11 @@ def test_runs_are_opened_and_say_what_was_measured(five):
     # no test bears more than the weakest cut; disks that turn make it weaker
     assert 0.5 * told["weakest_cut_rel"] < told["tensile_strength_rel"] < told["weakest_cut_rel"]
     assert told["broke"] and told["parted"] and not told["break_in_grips"] and told["platen_difference_rel"] < 0.05
+    # bonds take up most of the work; the rest slides and rolls
+    assert (
+        told["work_bonds_rel"] == run.series["energy_bonds_J"][-1] / run.series["work_J"][-1]
+        and 0.5 < told["work_bonds_rel"] < 1
+    )
     assert told["bonds_broken"] == len(run.breaks["step"]) and told["break_share"] > 0.7
     axes = run.figure().axes
     way, stress = drawn.points(drawn.line(axes[0], "seed 3")).T
@@ -346,6 +352,10 @@ def test_a_campaign_sums_up_its_groups_and_is_drawn(five, tmp_path):
     heads, lines = tension_report.table(summary)
     assert all(len(line) == len(heads) for line in lines)
     assert lines[0][:4] == ["150", "0.0001", "1", f"{1e-3 * measured[1]['tensile_strength_Pa']:.1f}"]
+    ax = figures.strengths(summary["groups"]).axes[0]
+    for marker, name in (("s", "tensile_strength_rel"), ("^", "weakest_cut_rel")):
+        (drawn_means,) = (drawn.points(one) for one in ax.lines if one.get_marker() == marker)
+        assert drawn_means == pytest.approx(np.array([[m["inertial_number"], m[name]] for m in measured[::-1]]))
     pictures = tension_report.draw(out, summary)
     assert [path.name for path in pictures] == ["tension.png", "tension_strengths.png"]
     assert all(path.stat().st_size > 10_000 for path in pictures)

@@ -2,14 +2,17 @@
 
 import dataclasses
 import json
+import math
 from types import SimpleNamespace
 
+import numpy as np
 import pytest
 import drawn
 from yade.nonsmooth import runs, section
 from yade.nonsmooth.campaign.plan import PlanError
 from yade.nonsmooth.figures import style
 from yade.nonsmooth.model.section import data as section_data
+from yade.nonsmooth.model.section.parts import Release
 from yade.nonsmooth.studies.paper import paper_figures, paper_slopes
 
 SUMMARY = {"water_at_failure_m": 17.25}
@@ -30,6 +33,10 @@ CASES = {  # D_c, way that releases from water [m]
     "no-release": (5.0, 1e5),
     "release-10": (5.0, 10.0),
     "release-2.5": (5.0, 2.5),
+    "dilatancy": (5.0, math.inf),
+    "dilatancy-5": (5.0, math.inf),
+    "drained": (5.0, math.inf),
+    "slip-or-dilatancy": (5.0, 5.0),
     "neither": (1e5, 1e5),
     "held": (5.0, 5.0),
 }
@@ -48,10 +55,18 @@ def test_a_variant_changes_what_it_says_and_nothing_else(name):
     assert (made.water.table, made.water.rate) == (
         (((0.0, 0.0), (17.25, 17.25)), 0.0) if name == "held" else (((0.0, 0.0),), 1.0)
     )
+    rules = {
+        "dilatancy": Release("dilatancy", 0.03, 3.0),
+        "dilatancy-5": Release("dilatancy", 0.05, 3.0),
+        "drained": Release("dilatancy", 0.03, 3.0, drainage_time=2.0),
+        "slip-or-dilatancy": Release("slip_or_dilatancy", 0.03, 3.0),
+    }
+    assert made.water.release == rules.get(name)
     data, shipped = plain(name), plain("shipped")
     for one in (data, shipped):
         del one["materials"]["dp"]["slip_weakening"]["critical_slip"]
         del one["water"]["release_distance"], one["water"]["table"]
+        one["water"].pop("release", None)
     assert data == shipped
 
 
@@ -130,8 +145,12 @@ def test_what_is_no_variant_or_seed_is_refused_before_anything_runs(ran, tmp_pat
     assert not ran
 
 
+# of the water's force, which falls to half 1.5 s after 30 s
+SERIES = {"time_s": np.array([29.0, 30.0, 31.0, 31.5, 32.0]), "dp_water_N_per_m": np.array([1.0, 8.0, 5.0, 4.0, 0.0])}
+
+
 def runs_of(*summaries):
-    return [SimpleNamespace(summary=one) for one in summaries]
+    return [SimpleNamespace(summary=one, series=SERIES) for one in summaries]
 
 
 def test_rows_have_means_over_the_slopes_that_have_a_number():
@@ -150,7 +169,7 @@ def test_rows_have_means_over_the_slopes_that_have_a_number():
                 "water_highest_m": 20.0,
                 "mixing": 0.1,
                 "weakening_begins_s": 33.0,
-                "times_s": {"t2": 30.0, "t3": 36.0},
+                "times_s": {"t0": 10.0, "t2": 30.0, "t3": 36.0},
                 "t2_by_speed_s": {"50": 29.5, "500": None},
                 "t5_by_speed_s": {"10": 70.0},
             },
@@ -164,12 +183,15 @@ def test_rows_have_means_over_the_slopes_that_have_a_number():
     assert times == {
         "times_s.t2": 30.0,
         "times_s.t3": 36.0,
+        "since_t0_s.t2": 20.0,
+        "since_t0_s.t3": 26.0,
         "t2_by_speed_s.50": 29.5,
         "t5_by_speed_s.10": 70.0,
         "triggering_by_speed_s.50": 6.5,
         "motion_by_speed_s.10": 34.0,
     }
-    assert set(row["numbers"]) - set(times) == {"water_highest_m", "mixing", "weakening_begins_s"}
+    others = {"water_highest_m", "mixing", "weakening_begins_s", "times_s.t0", "water_halved_s"}
+    assert set(row["numbers"]) - set(times) == others and row["numbers"]["water_halved_s"]["mean"] == 1.5
     assert row["numbers"]["water_highest_m"] == {
         "mean": 19.0,
         "half_width": pytest.approx(4.3027 / 3**0.5, rel=1e-4),
@@ -181,6 +203,22 @@ def test_rows_have_means_over_the_slopes_that_have_a_number():
     told = dict(zip(heads, line, strict=True))
     assert told["what became of it"] == "2 stood, 1 failed by water" and told["highest water [m]"] == "19.0 ± 2.5"
     assert told["mixing [%]"] == "10.0 (1)" and told["way of the front [m]"] == "–"
+
+
+def test_changes_are_those_of_the_same_packing():
+    """Of 610 and 590 m, and of 640 and none, from 600 and 570 m."""
+    found = {
+        "shipped": runs_of({"centroid_travel_m": 600.0}, {"centroid_travel_m": 570.0}),
+        "dilatancy": runs_of({"centroid_travel_m": 610.0}, {"centroid_travel_m": 590.0}),
+        "drained": runs_of({"centroid_travel_m": 640.0, "mixing": 0.1}, {"centroid_travel_m": None}),
+    }
+    one, other = paper_slopes.changes(paper_slopes.rows(found))
+    assert (one["name"], one["numbers"]["centroid_travel_m"]["values"]) == ("dilatancy", [10.0, 20.0])
+    assert one["numbers"]["centroid_travel_m"]["mean"] == 15.0 and set(other["numbers"]) == {"centroid_travel_m"}
+    assert (other["numbers"]["centroid_travel_m"]["values"], other["of"]) == ([40.0, None], 2)
+    _, lines = paper_slopes.table([one, other], paper_slopes.TIMES | paper_slopes.CHANGES)
+    assert [line[-3] for line in lines] == ["15 ± 64", "40 (1)"]
+    assert paper_slopes.changes(paper_slopes.rows({"dilatancy": found["dilatancy"]})) == []
 
 
 def test_the_figures_are_of_the_runs_that_there_are(whole, monkeypatch, tmp_path):

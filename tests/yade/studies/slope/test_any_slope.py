@@ -49,6 +49,8 @@ def test_shipped_sections_are_listed(in_process):
         ("flume", 500, 0.7),
         ("interface", 1500, 5.3),
         ("jiufengershan", 300, 0.5),
+        ("rain", 500, 5.0),
+        ("reservoir", 500, 5.0),
         ("undercut", 400, 3.2),
     ],
 )
@@ -70,6 +72,7 @@ def test_every_shipped_section_begins(name, disks, end, in_process, monkeypatch,
     told = json.loads((out / "summary.json").read_text())
     assert told["times_s"]["t0"] is not None and told["failed_dry_s"] is None, told
     assert {"force_chains.png", "forces.png", "snapshots.png", "weakening.png", "energy.png", "solver.png"} <= set(kept)
+    assert ("water.png" in kept) == (made.water_field is not None)
     assert [ax.get_ylabel() for ax in kept["weakening.png"].axes] == [
         f"along {one.name},\nfrom its upper end [m]" for one in made.weakening
     ]

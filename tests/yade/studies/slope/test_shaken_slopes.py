@@ -187,14 +187,16 @@ def test_slip_surfaces_are_found_again_after_a_resume(shaken, tmp_path):
 
 
 def test_the_script_that_compares_peaks(tmp_path):
-    """Of a small slope that stands at 1 m/s² and is carried off at 30, beside itself under rising water."""
+    """Of a small slope that stands at 1 m/s² and is carried off at 30, dry, with water, and by rising water alone."""
     motion = {"peak": 1.0, "duration": 3.0, "frequency": 1.0}
-    wet = shell.ROOT / "tests" / "data" / "small_slope.yaml"
-    shaken = {"base": str(wet), "water": None, "shaking": {"synthetic": motion}}
-    (tmp_path / "shaken.yaml").write_text(yaml.safe_dump(shaken))
+    water = shell.ROOT / "tests" / "data" / "small_slope.yaml"
+    dry = {"base": str(water), "water": None, "shaking": {"synthetic": motion}}
+    wet = {"base": str(water), "water": {"table": {"rate": None, "points": [[0, 0.2]]}}, "shaking": dry["shaking"]}
+    for name, content in (("dry", dry), ("wet", wet)):
+        (tmp_path / f"{name}.yaml").write_text(yaml.safe_dump(content))
     lines = (
-        "section wet disks peaks seeds folder",
-        f"'{tmp_path}/shaken.yaml' '{wet}' 150 [1.0,30.0] 2 '{tmp_path}/out'",
+        "dry wet water disks dry_peaks wet_peaks seeds folder",
+        f"'{tmp_path}/dry.yaml' '{tmp_path}/wet.yaml' '{water}' 150 [1,30] [30] 2 '{tmp_path}/out'",
     )
     (tmp_path / "peaks.table").write_text("\n".join(lines) + "\n")
     done = shell.run(
@@ -206,14 +208,14 @@ def test_the_script_that_compares_peaks(tmp_path):
     )
     assert done.returncode == 0, done.stderr
     told = json.loads((tmp_path / "out" / "shaken.json").read_text())
-    assert (told["shaken_1"]["stood"], told["shaken_1"]["failed"]) == (2, 0)
-    assert (told["shaken_30"]["stood"], told["shaken_30"]["failed"]) == (0, 2)
+    counts = {name: (one["stood"], one["failed"]) for name, one in told.items()}
+    assert counts == {"dry_1": (2, 0), "dry_30": (0, 2), "wet_30": (0, 2), "water": (0, 2)}
     for seed in (1, 2):
-        end = json.loads((tmp_path / "out" / "runs" / f"peak=30.0_seed={seed}" / "summary.json").read_text())
-        numbers = told["shaken_30"]["when_failed"]
+        end = json.loads((tmp_path / "out" / "dry" / "runs" / f"peak=30_seed={seed}" / "summary.json").read_text())
+        numbers = told["dry_30"]["when_failed"]
         assert numbers["slip_m"]["values"][seed - 1] == end["displacements_m"]["DP"]
         moved = end["times_s"]["t2"] - end["times_s"]["t0"] - end["shaking"]["begin_s"]
-        assert numbers["moves_s"]["values"][seed - 1] == moved > 0
+        assert numbers["moves_s"]["values"][seed - 1] == pytest.approx(moved) and moved > 0
         assert f"after it began, front {numbers['front_travel_m']['mean']:.0f}" in done.stdout
     for name in ("shaken", "shaken_runouts"):
         assert (tmp_path / "out" / f"{name}.png").stat().st_size > 1000

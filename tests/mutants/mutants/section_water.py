@@ -1,0 +1,42 @@
+"""Water of a section that is no table: its keys, its field, what a run does with it. Python, judged by pytest."""
+from mutant import mutant
+
+MODEL, WATER, SLOPE = "py/nonsmooth/model/section/", "py/nonsmooth/water/", "py/nonsmooth/studies/slope/"
+LINES, STATES, BASE = MODEL + "water.py", MODEL + "seepage.py", MODEL + "field_water.py"
+FIELD, SEEPAGE = WATER + "of_section.py", WATER + "section_seepage.py"
+MONITOR, COURSE, RULES = SLOPE + "monitoring.py", SLOPE + "experiment.py", "py/nonsmooth/course/slope.py"
+KEYS, FLOW, RUN = "plain:test_section_water.py", "plain:test_water_of_sections.py", "test_field_water.py"
+REFUSED = KEYS + "::test_what_is_refused_is_named_with_its_value_and_a_remedy"
+
+MUTANTS = (
+    # ---- keys
+    mutant("water-kinds", LINES, "if len(given) > 1:", "if False:", "two kinds of water are taken for one", REFUSED),
+    mutant("water-held", LINES, 'if given[0] != "table" and "hold"', 'if False and "hold"', "what cannot be held is said to be", REFUSED),
+    mutant("water-times", BASE, 'if after["time"] <= before["time"]:', 'if after["time"] < before["time"]:', "two states have one time", REFUSED),
+    mutant("water-span", LINES, "low <= reach.min() and reach.max() <= high", "low <= reach.min()", "a line may end within the layers", KEYS),
+    mutant("water-ground", LINES, "if y > ground + section.largest:", "if False:", "a line may float above the ground", REFUSED),
+    mutant("water-level", LINES, "if abs(b[1] - a[1]) <= section.tolerance:", "if False:", "a reservoir is refused", KEYS),
+    mutant("water-digest", LINES, 'if one.get("sha256", digests[-1]) != digests[-1]:', "if False:", "another file is taken for the one that was meant", KEYS + "::test_files_that_are_refused"),
+    mutant("water-mirror", LINES, "[[0.0 - x, y] for x, y in reversed(line[\"points\"])]", "[[0.0 - x, y] for x, y in line[\"points\"]]", "mirrored lines run from right to left",
+           KEYS + "::test_a_mirrored_slope_has_mirrored_lines"),
+    mutant("water-mirror-file", LINES, 'not raw["field"].get("mirrored", False)', "True", "a field that is mirrored twice is mirrored", KEYS + "::test_a_mirrored_and_a_larger_field"),
+    mutant("states-dip", STATES, 'one["dip"] = 0.0 - one["dip"]', "pass", "bedding of a mirrored slope dips the old way", FLOW + "::test_a_slope_that_is_mirrored_has_mirrored_seepage"),
+    mutant("water-first", STATES, "if not one.get(\"drained\", True) and k == 0:", "if False:", "a drawdown begins from nothing", FLOW + "::test_what_is_refused_when_a_section_is_read"),
+    # ---- the field
+    mutant("water-from-dry", FIELD, "if found.times[0] <= 0:", "if True:", "the first state's pressures come at once", KEYS + "::test_pressures_grow_from_nothing_until_the_first_state"),
+    mutant("water-along", FIELD, "(1 + slope**2 if water.flow", "(1 + slope if water.flow", "water along a line has another pressure", KEYS + "::test_the_field_below_lines_is_exact"),
+    mutant("water-scale", FIELD, "found.pressures * water.scale", "found.pressures", "a larger field has the small one's pressures", KEYS + "::test_a_mirrored_and_a_larger_field"),
+    mutant("water-cover", FIELD, "if largest is not None:", "if False:", "a field need not cover the layers", KEYS + "::test_a_field_must_cover_the_layers"),
+    mutant("water-hole", FIELD, "if mesh.locate(part.representative_point().coords)[0] >= 0", "if True", "a hole in a mesh is covered", KEYS + "::test_a_mesh_with_a_hole_does_not_cover_what_lies_in_it"),
+    mutant("water-bared", SEEPAGE, "given = applied.fixed | bared | ~wet", "given = applied.fixed | ~wet", "a bared face keeps the reservoir's pressure", FLOW + "::test_a_rapid_drawdown_of_seeping_water_leaves_the_effective_stresses"),
+    mutant("water-open", SEEPAGE, "pond = _open_water(water, section)", "pond = None", "no water stands over the ground", FLOW + "::test_open_water_stands_over_the_ground_at_the_level_of_the_time"),
+    mutant("water-nearest", SEEPAGE, "k = int(np.argmin(away))", "k = 0", "all open water has the level of the first reservoir", FLOW + "::test_two_reservoirs_stand_where_their_lines_are"),
+    mutant("water-tight", SEEPAGE, "taken[mesh.border_on(wall.points)] = True", "pass", "walls let water out", FLOW + "::test_rain_raises_the_water_and_an_artesian_base_lifts"),
+    # ---- a run
+    mutant("water-begin", RULES, "None if section.water_field is None or state.water_hold is not None else state.t0", "None if section.water_field is None else state.t0",
+           "a slope that failed dry gets wet", RUN + "::test_a_slope_that_fails_dry_gets_no_water"),
+    mutant("water-coming", RULES, "return over and not seen.coming and", "return over and", "a slope stands before the last state of its water", RUN + "::test_a_slope_stands_only_after_the_last_state"),
+    mutant("water-still", RULES, "if height == s.table and not seen.coming else", "if height == s.table else", "a slope is still while its water rises", RUN + "::test_a_slope_stands_only_after_the_last_state"),
+    mutant("water-kept", COURSE, "field_files.read(Path(folder) / of_section.FILE)", "of_section.field(section)", "a resumed run wants the file again", RUN + "::test_a_run_does_not_need_the_file_of_its_field_again"),
+    mutant("water-heads", "py/nonsmooth/measure/pressure_heads.py", "up)[piece] + share", "0 * up)[piece] + share", "heads are read below the disks", RUN + "::test_the_run_tells_of_the_pressure_on_the_slip_surface"),
+)

@@ -1,0 +1,239 @@
+"""What a drawdown does to a long slope, by the forces on disks and the closed forms of every book-keeping; seepage and
+open water of sections. Needs no YADE.
+"""
+
+import math
+import sys
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+ROOT = Path(__file__).resolve().parents[3]
+sys.path.insert(0, str(ROOT / "py"))
+from nonsmooth import section, similar  # noqa: E402
+from nonsmooth.water import WaterError, forces, of_section  # noqa: E402
+
+DIP, THICK, PHI = 21.0, 10.0, 0.84
+BETA = math.radians(DIP)
+
+
+def at(s, h):
+    """The place [m] s up the plane and h above it."""
+    return [-s * math.cos(BETA) + h * math.sin(BETA), s * math.sin(BETA) + h * math.cos(BETA)]
+
+
+def long_slope(density, **water):
+    """A layer on a plane, under a reservoir; in a second state with water up to its surface."""
+    base, surface = ([[x, -x * math.tan(BETA) + up / math.cos(BETA)] for x in (-190.0, 0.0)] for up in (0.0, THICK))
+    lines = [{"time": 0.0, "points": [[-210.0, 120.0], [40.0, 120.0]]}, {"time": 5.0, "points": surface}]
+    if "seepage" not in water:
+        water["phreatic"] = {"lines": lines, **water.get("phreatic", {})}
+    rock = {"friction": 0.5, "rolling_friction": 0.1, "bonded": False, "density": density}
+    plane = {"friction": 0.5, "rolling_friction": 0.1, "bonded": False}
+    return section.of(
+        name="long",
+        walls=[{"name": "plane", "material": "plane", "role": "slip", "vertices": [at(215, 0), at(-15, 0)]}],
+        layers=[{"name": "rock", "material": "rock", "vertices": [*base, *surface[::-1]]}],
+        materials={"rock": rock, "plane": plane},
+        disks={"diameter": [0.5, 1.0], "packing_fraction": PHI},
+        water=water,
+    )
+
+
+def factor(made, time):
+    """Of safety of disks within the layer, by tan φ: normal over shear force on the plane."""
+    rng = np.random.default_rng(7)
+    x, y = np.array([at(s, h) for s, h in zip(rng.uniform(40, 160, 300), rng.uniform(0.2, THICK - 0.2, 300))]).T
+    r = rng.uniform(0.25, 0.5, 300)
+    share = {"packing_fraction": made.disks.packing_fraction} if made.water.volume == "bulk" else {}
+    force = forces.on_disks(of_section.field(made), x, y, r, time, area=made.water.volume, **share)
+    force[:, 1] -= made.materials["rock"].density * made.gravity * math.pi * r**2
+    total = force.sum(axis=0)
+    return -(total @ made.normal) / (total @ made.downslope)
+
+
+#: weight of the bulk, book-keeping, and the factor of safety after a drawdown by that before it
+CASES = {
+    "N' stays": (2260 / PHI, {"volume": "bulk", "phreatic": {"flow": "along"}}, 1 - 1000 / 2260, 0.5575),
+    "Morgenstern's B = 1": (2260 / PHI, {"volume": "bulk"}, 1 - 1000 / 2260 / math.cos(BETA) ** 2, 0.492),
+    "the paper's bulk": (2500.0, {"volume": "bulk", "phreatic": {"flow": "along"}}, 1 - 1000 / 2100, 0.524),
+    "volumes of disks": (2500.0, {"volume": "disk", "phreatic": {"flow": "along"}}, 1 - 1000 / 2500, 0.600),
+}
+
+
+@pytest.mark.parametrize("case", CASES)
+def test_a_drawdown_leaves_the_share_of_safety_of_its_book_keeping(case):
+    density, water, closed, printed = CASES[case]
+    made = long_slope(density, **water)
+    before, after = factor(made, 0.0), factor(made, 5.0)
+    assert before == pytest.approx(1 / math.tan(BETA), rel=1e-10)  # under water as dry
+    if "flow" in water.get("phreatic", {}):
+        assert after / before == pytest.approx(closed, rel=1e-10)
+    else:  # water that flows sideways pulls along the slope too
+        weight, lift = density * PHI * 9.81, 9810.0
+        push = lift * math.tan(BETA) * np.array([math.cos(BETA), math.sin(BETA)])  # of −∇p's horizontal part
+        normal = weight * math.cos(BETA) - lift * math.cos(BETA) - push[1]
+        shear = weight * math.sin(BETA) - lift * math.sin(BETA) + push[0]
+        assert after == pytest.approx(normal / shear, rel=1e-10)
+        # N' is that of the pressure γ_w z on the plane
+        assert normal / (weight * math.cos(BETA)) == pytest.approx(closed, rel=1e-10)
+    assert closed == pytest.approx(printed, abs=5e-4)
+
+
+# ---- seepage ------------------------------------------------------------------------------------------
+def seeping(*states, conductivity=1e-5, size=2.5, density=2260 / PHI, **keys):
+    return long_slope(
+        density, volume="bulk", seepage={"size": size, "conductivity": conductivity, "states": states, **keys}
+    )
+
+
+FULL, BARE = {"time": 0.0, "reservoir": 120.0}, {"time": 5.0, "drained": False}
+
+
+@pytest.fixture(scope="module")
+def drawn_down():
+    """A long slope under a reservoir, at once after a rapid drawdown, and when it has drained: (section, field)."""
+    layers = {"rock": {"along": 2e-5, "across": 1e-5, "dip": DIP}}
+    made = seeping(FULL, BARE, {"time": 9.0, "reservoir": -100.0}, conductivity=layers)
+    return made, of_section.field(made)
+
+
+def test_a_rapid_drawdown_of_seeping_water_leaves_the_effective_stresses(drawn_down):
+    made, _ = drawn_down
+    before, after, drained = (factor(made, time) for time in (0.0, 5.0, 9.0))
+    assert before == pytest.approx(1 / math.tan(BETA), rel=1e-10)
+    assert after / before == pytest.approx(0.5575, rel=2e-3)  # of the mesh, and far from the ends
+    assert drained > 1.2 * after
+
+
+def test_open_water_stands_over_the_ground_at_the_level_of_the_time(drawn_down):
+    made, field = drawn_down
+    x = np.linspace(-185, -5, 60)
+    ground = -x * math.tan(BETA) + THICK / math.cos(BETA)
+    over = np.column_stack((x, ground + 1.0))
+    assert field.pressure(over, 0.0) == pytest.approx(9810 * (120 - over[:, 1]), rel=1e-12)
+    assert field.gradient(over, 0.0) == pytest.approx(np.tile((0.0, -9810.0), (60, 1)), abs=1e-6)
+    assert not field.pressure(over, 5.0).any()
+    # and it presses on the face: p has no step there
+    inside = np.column_stack((x, ground - 1e-6))
+    assert field.pressure(inside, 0.0) == pytest.approx(9810 * (120 - ground), rel=1e-6)
+
+
+def test_still_water_is_still_in_the_ground_and_over_it():
+    made = seeping({"time": 0.0, "reservoir": 40.0})
+    field = of_section.field(made)
+    rng = np.random.default_rng(1)
+    points = np.column_stack((rng.uniform(-185, -1, 400), rng.uniform(0, 80, 400)))
+    base = -points[:, 0] * math.tan(BETA)
+    points = points[points[:, 1] > base + 0.01]
+    found = field.gradient(points, 0.0, outside="dry")
+    deep = (points[:, 1] < 40.0)[:, None] * (0.0, -9810.0)
+    assert found == pytest.approx(deep, abs=1e-6) and deep.any() and not deep.all()
+
+
+def test_two_reservoirs_stand_where_their_lines_are():
+    """A bank of 20 m between two lakes; what none of them names is open to air."""
+    rock = {"friction": 0.5, "rolling_friction": 0.1, "bonded": False, "density": 2000.0}
+    ground = {"friction": 0.5, "rolling_friction": 0.1, "bonded": False}
+    left, right = [[-40.0, 0.0], [-10.0, 20.0]], [[10.0, 20.0], [40.0, 0.0]]
+    made = section.of(
+        name="bank",
+        walls=[
+            {"name": "base", "material": "ground", "vertices": [[-60.0, 0.5], [-40.0, 0.0], [40.0, 0.0], [60.0, -0.5]]}
+        ],
+        layers=[{"name": "bank", "material": "rock", "vertices": [[-40, 0], [40, 0], [10, 20], [-10, 20]]}],
+        materials={"rock": rock, "ground": ground},
+        disks={"diameter": [1.0, 2.0]},
+        water={
+            "seepage": {
+                "size": 3.0,
+                "conductivity": 1e-6,
+                "states": [
+                    {"time": 0.0, "boundaries": [{"line": left, "reservoir": 15.0}, {"line": right, "reservoir": 5.0}]}
+                ],
+            }
+        },
+    )
+    field = of_section.field(made)
+    places = [[-50.0, 3.0], [-35.0, 6.0], [50.0, 3.0], [35.0, 4.0], [50.0, 6.0], [-20.0, 15.5]]
+    assert field.pressure(places, 0.0, outside="dry") / 9810 == pytest.approx([12, 9, 2, 1, 0, 0], abs=1e-9)
+    heads = [float(field.pressure([[x, 0.5]])[0]) / 9810 + 0.5 for x in (-35.0, 0.0, 35.0)]
+    assert 15.0 >= heads[0] > heads[1] > heads[2] >= 5.0
+
+
+def test_rain_raises_the_water_and_an_artesian_base_lifts():
+    dry = {"time": 0.0}
+    heads = {
+        "dry": of_section.field(seeping(dry)),
+        "rain": of_section.field(seeping({**dry, "rain": 5e-6})),
+        "base": of_section.field(seeping({**dry, "boundaries": [{"wall": "plane", "pressure_head": 4.0}]})),
+    }
+    along = np.array([at(s, 0.05) for s in np.linspace(40, 160, 20)])
+    assert not heads["dry"].pressure(along).any()
+    assert heads["rain"].pressure(along).min() > 9810 * 0.5
+    assert heads["base"].pressure(along) == pytest.approx(4 * 9810, rel=0.05)
+
+
+def test_a_slope_that_is_mirrored_has_mirrored_seepage(drawn_down):
+    made, field = drawn_down
+    there = of_section.field(similar.mirrored(made))
+    x, y = np.array([at(s, 5.0) for s in np.linspace(30, 170, 40)]).T
+    for time in (0.0, 5.0):
+        assert there.pressure(np.column_stack((-x, y)), time) == pytest.approx(
+            field.pressure(np.column_stack((x, y)), time), rel=1e-2
+        )
+
+
+REFUSED = {
+    "a layer": ({"conductivity": {"clay": 1e-7}}, "no layer is called 'clay'", "give one of rock"),
+    "no number": ({"conductivity": "low"}, "water.seepage.conductivity: 'low' is text", "[m/s]"),
+    "zero": ({"conductivity": 0}, "0 is not allowed", "above 0"),
+    "times": ({"states": [FULL, {**FULL}]}, "states[1].time: the time 0 s does not follow 0 s", "rising"),
+    "first": ({"states": [BARE]}, "states[0].drained: the first state has none before it", "a later state"),
+    "wall": (
+        {"states": [{"time": 0, "boundaries": [{"wall": "DP", "head": 3}]}]},
+        "no wall is called 'DP'",
+        "give one of plane",
+    ),
+    "no place": ({"states": [{"time": 0, "boundaries": [{"head": 3}]}]}, "has neither `wall` nor `line`", "a line of"),
+    "two kinds": (
+        {"states": [{"time": 0, "boundaries": [{"wall": "plane", "head": 3, "inflow": 1}]}]},
+        "has head and inflow",
+        "give one of head",
+    ),
+    "false": (
+        {"states": [{"time": 0, "boundaries": [{"wall": "plane", "closed": False}]}]},
+        "false says nothing",
+        "closed: true",
+    ),
+}
+
+
+@pytest.mark.parametrize("case", REFUSED)
+def test_what_is_refused_when_a_section_is_read(case):
+    keys, *parts = REFUSED[case]
+    with pytest.raises(section.SectionError) as error:
+        long_slope(2500.0, seepage={"size": 2.5, "conductivity": 1e-5, "states": [FULL], **keys})
+    said = str(error.value)
+    assert all(part in said for part in parts) and "\n" not in said, said
+
+
+def test_a_line_off_the_border_is_refused_when_the_run_begins():
+    made = seeping({"time": 0.0, "boundaries": [{"line": [[-100.0, 90.0], [-80.0, 90.0]], "head": 50.0}]})
+    with pytest.raises(WaterError) as error:
+        of_section.field(made)
+    said = str(error.value)
+    assert said.startswith("section: water.seepage") and "m from all borders" in said and "\n" not in said
+
+
+def test_conditions_without_a_head_are_refused():
+    closed = seeping({"time": 0.0, "boundaries": [{"line": [*line], "closed": True} for line in rims()]})
+    with pytest.raises(WaterError, match=r"section: water.seepage.states\[0\]: conditions give no head anywhere"):
+        of_section.field(closed)
+
+
+def rims():
+    """The free faces of the long slope."""
+    base, surface = ([[x, -x * math.tan(BETA) + up / math.cos(BETA)] for x in (-190.0, 0.0)] for up in (0.0, THICK))
+    return [[base[0], surface[0], surface[1], base[1]]]
