@@ -3,7 +3,8 @@
 Taboada and Estrada (2009) release a disk from water by its way downslope, and name the dilatancy around it as the
 better criterion (section 5.4, paragraph 113). The rules here:
 
-* the mass fails where the course says that it moves (:mod:`.slope`). What was dilated before is no part of it;
+* the mass fails where the course says that it moves (:mod:`yade.nonsmooth.course.slope`). What was dilated before is no
+  part of it;
 * the dilation around a disk is 1 - φ/φ₀: the area share φ of the disks around it, by that of the same disks when the
   mass failed (:mod:`..measure.local_packing`). A disk that stands alone, then or now, has no pores around it that could
   bear pressure: its dilation is 1;

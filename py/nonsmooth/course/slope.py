@@ -29,9 +29,9 @@ Rules:
 * end: the mean speed has been below ``rest_fraction`` of its maximum for ``rest_hold`` seconds, or the slope stands and
   nothing is left that could change it, or ``end.time`` has passed. It stands where for 5 s, and for ``rest_hold``
   seconds more, the mean speed has been no more than ``stages.settle.speed_rest``, no bond broke and no other disk got
-  wet, no window takes disks out any more (:mod:`.erosion`), and the water table stays where it is or above all disks; a
-  script that may do more to it says so. While a trigger acts or is to come, or a window that does not hold takes disks
-  out, neither counts as its end.
+  wet, no window takes disks out any more (:mod:`yade.nonsmooth.course.erosion`), and the water table stays where it is
+  or above all disks; a script that may do more to it says so. While a trigger acts or is to come, or a window that does
+  not hold takes disks out, neither counts as its end.
 """
 
 from __future__ import annotations

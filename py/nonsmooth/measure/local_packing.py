@@ -1,6 +1,6 @@
 """How densely disks lie around each of them: the area share of disks in a neighbourhood, by Laguerre cells.
 
-The cell of a disk is all that is nearer to it than to any other, by the power distance |x - c|² - r²: its sides are the
+The cell of a disk is all that is nearer to it than to any other, by the power distance (x - c)² - r²: its sides are the
 radical lines of neighbours, so that no disk reaches into the cell of another one, whatever their sizes. Cells of single
 disks change by several per cent in a shear that changes no area, since their neighbours do; the mean over some disks
 does not. So the share of a neighbourhood is the area of its disks by that of its cells.

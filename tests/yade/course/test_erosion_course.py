@@ -61,7 +61,7 @@ def test_windows_have_times_of_their_own():
 
 
 def test_nothing_is_taken_of_a_slope_that_failed_dry():
-    assert play(steps((0.5, 3.0)), cut(end=20.0))[0] == []
+    assert play(steps((0.5, 3.0)), cut(end=20.0), cut("river", end=20.0, hold="never"))[0] == []
 
 
 def test_one_that_holds_stands_still_while_the_slope_moves_and_goes_on_later():

@@ -33,10 +33,9 @@ MOST_DISKS = 10_000_000  # what asks for more is a slip of the pen: a million ta
 @dataclass(frozen=True)
 class Section:
     """A checked section. `pressed`: its packing is pressed, see :mod:`.slope_packing`; `unusual`: keys of values that
-    are meant, see :mod:`.section_units`; `erosion`: windows that take disks out, see :mod:`.erosion`; `source`: file
-    read; `scale`: diameters by those of the file; `like`: a section that is packed instead, and the factor by which its
-    disks are then as large (see :mod:`.similar`), or None; `given`: what it was made from, see
-    :mod:`.section_values`."""
+    are meant, see :mod:`.section_units`; `erosion`: windows that take disks out; `source`: file read; `scale`:
+    diameters by those of the file; `like`: a section that is packed instead, and the factor by which its disks are then
+    as large (see :mod:`.similar`), or None; `given`: what it was made from, see :mod:`.section_values`."""
 
     name: str
     description: str

@@ -31,7 +31,7 @@ def turned(points, dip):
     return [[c * x + s * y, c * y - s * x] for x, y in points]
 
 
-def flat(*windows, rock=LOOSE, end=1.5, dip=0.0, **keys):
+def flat(*windows, rock=LOOSE, floor_law={}, end=1.5, dip=0.0, **keys):  # noqa: B006 (it is not changed)
     """A section of two layers on a floor, flat or with a ``dip`` [degrees], whose disks a test places by hand."""
     lower, upper = (turned([(-w, y), (w, y), (w - 1, y + 2), (1 - w, y + 2)], dip) for w, y in ((9, 0), (8, 2)))
     floor = turned([(-20, 0), (20, 0)], dip)
@@ -42,7 +42,7 @@ def flat(*windows, rock=LOOSE, end=1.5, dip=0.0, **keys):
             {"name": "lower", "material": "rock", "vertices": lower},
             {"name": "upper", "material": "rock", "vertices": upper},
         ],
-        materials={"rock": rock | {"density": DENSITY}, "floor": LOOSE},
+        materials={"rock": rock | {"density": DENSITY}, "floor": LOOSE | floor_law},
         disks={"diameter": [1.0, 1.0]},
         stages={"settle": {"ramp": 0.1, "time_max": 0.3, "speed_rest": 1e-3}, "dry": 0.1, "end": {"time": end}},
         numerics={"time_step": 5e-3, "tolerance": 1e-9, "tolerance_moving": 1e-9, "max_iterations": 3000},
@@ -237,12 +237,36 @@ def test_a_slope_whose_foot_is_gone_fails_by_erosion(tmp_path):
     assert told["water_at_failure_m"] is None
 
 
+@pytest.mark.parametrize("rock, became", [(STRONG, "stood"), (LOOSE, "failed by erosion")], ids=["bonded", "loose"])
+def test_a_vertical_cut_of_bonded_rock_stands_and_one_of_loose_disks_does_not(rock, became, tmp_path):
+    """A heap is cut down to the floor through its middle, from its top; all in one layer, so that bonds hold it."""
+    half = {"vertices": [[0.0, -1.0], [9.0, -1.0], [9.0, 9.0], [0.0, 9.0]]}
+    rows = 8
+    high = math.sqrt(3) * R
+    places = [(k + 0.5 * j - 0.5 * rows, R + high * j, 0) for j in range(rows) for k in range(rows - j)]
+    made = flat(cut(opening={"time": 0.4}) | half, rock=rock, end=5.0)
+    told = run(made, stack(*places), tmp_path).summarise()
+    assert told["verdict"] == became and told["eroded_disks"] >= 12, told["verdict_says"]
+    end = records.read_snapshot(tmp_path / "end.npz")
+    assert ((end.x > 0.1).sum() == 0) == (became == "stood")
+
+
 # ---- the same bits ----------------------------------------------------------------------------------
 RIVER = {"vertices": [[2.2, -1.0], [9.0, -1.0], [9.0, 9.0], [2.2, 9.0]], "velocity": [-3.0, 0.0]}
 
 
 def river(**keys):
-    return flat(cut("river", begin=0.1, end=0.9, hold="never") | RIVER, dip=3.0, **keys)
+    """A heap on a floor that weakens with slip, which water wets and a river eats."""
+    water = {
+        "plane": "floor",
+        "table": {"points": [[0.0, 0.0], [0.5, 1.5]]},
+        "pressure_gradient": "hydrostatic",
+        "volume": "disk",
+        "release_distance": 0.2,
+    }
+    weak = {"friction": 0.15, "slip_weakening": {"law": "linear", "critical_slip": 1e-4, "friction": 0.1}}
+    window = cut("river", begin=0.1, end=0.9, hold="never") | RIVER
+    return flat(window, dip=3.0, floor_law=weak, water=water, **keys)
 
 
 def eaten_pile():
@@ -271,6 +295,8 @@ def test_a_mirrored_window_gives_the_mirrored_run(eaten, tmp_path):
         assert np.array_equal(there[name] * (-1 if name in turned else 1), values), name
     one, other = (records.read_eroded(folder / "eroded.csv") for folder in (eaten, tmp_path))
     assert len(one["disk"]) >= 6 and (one["energy_kinetic_J"] > 0).any()
+    # water acts, and slip counts, while disks go
+    assert here["wet_disks"].max() >= 5 and 0 < here["slip_mean_dp_m"].max() and np.ptp(here["dp_water_N_per_m"]) > 0
     for name, values in one.items():
         assert np.array_equal(-other[name] if name in ("x_m", "vx_m_per_s") else other[name], values), name
 
@@ -280,6 +306,7 @@ def test_a_slope_that_goes_on_from_a_checkpoint_has_the_same_files(eaten, tmp_pa
     course = run(river(), eaten_pile(), tmp_path, until=0.75)
     gone = course.eroding.disks
     assert 0 < gone < len(records.read_eroded(eaten / "eroded.csv")["disk"])
+    assert records.read_series(tmp_path / "series.csv")["slip_mean_dp_m"][-1] > 0
     course.checkpoint()
     kept = tmp_path / "kept"
     shutil.copytree(tmp_path / "checkpoint", kept)
