@@ -220,14 +220,14 @@ class Experiment(driver.Course):
         if self.frames.takes(values, regular, asdict(course.after(s, seen, self.section, self.scales))):
             self.snapshot(self.frames.path(O.iter))
         self.frames.tidy()
-        self._decide(seen, disks)
+        self._decide(seen)
         self.progress(self.state.stage, O.time, course.foreseen(self.state, O.time, self.section))
 
     def _finish(self):
         self.checkpoint()
 
-    def _decide(self, seen, disks):
-        """Goes on to the next state, and does what the change means; ``disks``: their table."""
+    def _decide(self, seen):
+        """Goes on to the next state, and does what the change means."""
         before, self.state = self.state, course.after(self.state, seen, self.section, self.scales)
         changed = self.state.stage if self.state.stage != before.stage else None
         if changed == "dry":
@@ -246,7 +246,7 @@ class Experiment(driver.Course):
             self.release.look(disks, self.state.moving is not None)
         due = erosion.due(before, self.state, self.section)
         if due:
-            x, y = self.monitor.take_out(due, disks)
+            x, y = self.monitor.take_out(due, tables.bodies(self.slope.solver))
             self.state.eroded_shift_x += x
             self.state.eroded_shift_y += y
         if changed == "done":

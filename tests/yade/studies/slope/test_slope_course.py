@@ -208,10 +208,17 @@ def test_what_the_course_decides_is_done(loaded, tmp_path, monkeypatch):
     assert saved[3:] == [("end.npz", True)] and run.state.stage == "done"
 
 
+def looked_at(count=2, gone=None):
+    """What SlopeMonitor.inside asks of a slope of so many disks, of which windows have taken some out."""
+    built = SimpleNamespace(count=count, first_disk=10)
+    eroding = None if gone is None else SimpleNamespace(disks=gone)
+    return SimpleNamespace(section=section.load("jiufengershan"), slope=built, eroding=eroding)
+
+
 @pytest.mark.parametrize("side", ["left", "right", "below", "above"])
 def test_a_disk_that_leaves_the_section_is_refused(side):
     """On each side a tenth of the section's longer side beyond its box, and where it is nowhere at all."""
-    run = SimpleNamespace(section=section.load("jiufengershan"), slope=SimpleNamespace(count=2))
+    run = looked_at()
     x0, y0, x1, y1 = run.section.bounds
     margin = 0.1 * max(x1 - x0, y1 - y0)
     middle = (0.5 * (x0 + x1), 0.5 * (y0 + y1))
@@ -221,7 +228,7 @@ def test_a_disk_that_leaves_the_section_is_refused(side):
         return tuple(at if k == axis else middle[k] for k in (0, 1))
 
     def table(one):
-        return {"x": np.array([middle[0], one[0]]), "y": np.array([middle[1], one[1]])}
+        return {"id": [10, 11], "x": np.array([middle[0], one[0]]), "y": np.array([middle[1], one[1]])}
 
     SlopeMonitor.inside(run, table(place(end + way * (margin - 1e-3))), "out")
     for lost in (end + way * (margin + 1e-3), way * 1e9, np.nan):
@@ -236,12 +243,21 @@ def test_a_disk_that_leaves_the_section_is_refused(side):
 
 @pytest.mark.parametrize("count", [1, 3])
 def test_a_slope_whose_script_erases_or_adds_disks_is_refused(count):
-    run = SimpleNamespace(section=section.load("jiufengershan"), slope=SimpleNamespace(count=2))
+    run = looked_at()
     with pytest.raises(
         experiment.ExperimentError,
         match=f"the scene has {count} disks, and the slope 2: .* neither erase nor add disks",
     ):
         SlopeMonitor.inside(run, {"x": np.zeros(count), "y": np.zeros(count)}, "out")
+    gone = looked_at(5, gone=3)
+    with pytest.raises(experiment.ExperimentError, match=f"the scene has {count} disks, and the slope 2: "):
+        SlopeMonitor.inside(gone, {"x": np.zeros(count), "y": np.zeros(count)}, "out")
+
+
+def test_a_disk_that_leaves_is_told_by_its_number_where_others_are_gone():
+    run = looked_at(5, gone=3)
+    with pytest.raises(experiment.ExperimentError, match="disk 4 left the section"):
+        SlopeMonitor.inside(run, {"id": [11, 14], "x": np.array([0.0, 1e9]), "y": np.zeros(2)}, "out")
 
 
 def test_a_row_that_sees_a_lost_disk_ends_the_run_and_is_not_written(loaded, tmp_path):
