@@ -41,7 +41,9 @@ def main():
     if end == "factor":
         search.run(asked.Asked(chosen, numbers={"step": 0.2, "within": 0.2}), out)
     elif "--resume" in sys.argv:
-        experiment.resume(chosen, out).run(float(end))
+        course = experiment.resume(chosen, out)
+        if not course.reached(float(end)):  # else it was killed after its last checkpoint
+            course.run(float(end))
     else:
         experiment.begin(chosen, out).run(float(end))
     if not look:

@@ -142,7 +142,7 @@ def snapshots(cases, walls, path=None, pdf=False, close_up=True, free_surface=No
         ((Patch(color=style.DRY[0]), Patch(color=style.DRY[1])), "dry"),
         ((Patch(color=style.WET[0]), Patch(color=style.WET[1])), "under pore pressure"),
         ((Patch(color=style.RELEASED[0]), Patch(color=style.RELEASED[1])), "pore pressure released"),
-        (Line2D([], [], **style.WATER_LINE), "water table" if free_surface is None else "free surface of the water"),
+        (Line2D([], [], **style.WATER_LINE), "water table" if free_surface is None else "free surface"),
         (Line2D([], [], color=style.WALL, lw=1.6), f"walls: {names}" if len(names) <= 24 else "walls"),
     ]
     if weakens:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from collections import Counter
 from dataclasses import dataclass
 from pathlib import Path
 
@@ -109,20 +110,30 @@ def _sample(fig, ax, broken):
     ax.set_title(f"{len(end.x):,} disks, seed {measured['seed']}")
     fig.colorbar(scale, ax=ax, shrink=0.6, label="way along the pull [mm]")
     if len(broken.breaks["mode"]):
-        ax.legend(title="bonds that broke by", loc="lower left", fontsize=7, title_fontsize=7)
+        ax.legend(
+            title="bonds that broke by",
+            loc="upper center",
+            bbox_to_anchor=(0.5, 0.0),
+            ncol=2,
+            fontsize=8,
+            title_fontsize=8,
+        )
 
 
 @style.styled
 def strengths(groups, path=None, pdf=False):
     """Tensile strength over that of the bonds against the number of disks and against the rate: dots samples, squares
-    means with their 95 % interval, triangles the weakest cuts through the bonds. A panel for what varies.
+    means with their 95 % interval, triangles the weakest cuts through the bonds. A panel for what varies, with the
+    other as in most of the groups.
 
     ``groups``: as in ``summary.json`` of a campaign of tension tests.
     """
     names = [name for name in SCALES if len({row[name] for row in groups}) > 1] or ["disks"]
     fig = style.figure(3.8 * len(names) + 0.4, 3.8, layout="constrained")
     for ax, name in zip(fig.subplots(1, len(names), sharey=True, squeeze=False)[0], names):
-        rows = sorted(groups, key=lambda row: row[name])
+        (other,) = set(SCALES) - {name}
+        usual = Counter(row[other] for row in groups).most_common(1)[0][0]
+        rows = sorted((row for row in groups if row[other] == usual), key=lambda row: row[name])
         values = [row[name] for row in rows]
         for row in rows:
             each = row["tensile_strength_rel"]["values"]

@@ -3,7 +3,7 @@
 Let the part above a cut move up as one rigid body. A bond across the cut, whose normal has the components n_y along the
 pull and n_x across it, opens with n_y and slips with n_x. At the tip of its cone, N = −F_a and T = 0, it does the work
 F_a n_y. That is the plastic work of the cone with its associated flow where the motion lies in the normal cone of the
-tip, n_y ≥ μ |n_x|; other bonds jam, and no cut goes through them. By the upper bound theorem of limit analysis no
+tip, n_y ≥ μ abs(n_x); other bonds jam, and no cut goes through them. By the upper bound theorem of limit analysis no
 associated sample bears more than the sum of F_a n_y over any cut; and one whose shear does not dilate, as here, bears
 no more than the associated one (Radenkovic 1961). The least of these sums is a minimum cut of a graph, and equals its
 maximum flow.

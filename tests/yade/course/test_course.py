@@ -413,6 +413,13 @@ def test_a_slope_without_water_that_stands_ends_its_run():
     assert play(slope(water=False), steps(), also=standing())[-1].time == close(1.6 + 10.0)
 
 
+def test_while_states_of_a_field_of_water_are_to_come_it_neither_stands_nor_is_still():
+    rows = play(slope(water=False), steps(), also=standing(coming=lambda t: t < 20.0))
+    assert rows[-1].time == close(20.0 + 10.0)
+    still = [row.time for row in rows if row.still]
+    assert still[0] == close(19.9 + 5.0)  # the last row that saw one was that before
+
+
 # what goes on until 9 s
 @pytest.mark.parametrize(
     "speed, seen",

@@ -519,3 +519,19 @@ def test_runouts_are_drawn_with_the_way_of_their_fronts():
     assert upper.get_xlim() == lower.get_xlim() and upper.get_position().y0 >= lower.get_position().y1 - 1e-9
     with pytest.raises(records.RecordsError, match="no run to draw"):
         figures.runouts([], LEVEL)
+
+
+def test_the_free_surface_of_a_field_takes_the_place_of_a_water_table():
+    pieces = [np.array([[-50.0, 40.0], [0.0, 5.0]]), np.array([[0.0, 5.0], [50.0, 5.0]])]
+
+    def surface(time):
+        return pieces if time > 6 else []
+
+    cases = [("t0", state(time_s=5.0)), ("on the way", state(time_s=61.26, water_m=12.0))]
+    fig = figures.snapshots(cases, WALLS, free_surface=surface)
+    drawn_lines = [line.get_xydata() for ax in fig.axes for line in ax.lines if line.get_color() == style.WATER]
+    assert [len(line) for line in drawn_lines] == [0, 6] and np.isnan(drawn_lines[1][[2, 5]]).all()
+    assert np.array_equal(drawn_lines[1][:2], pieces[0]) and np.array_equal(drawn_lines[1][3:5], pieces[1])
+    told = "\n".join(text for ax in fig.axes for text in drawn.texts(ax))
+    assert "mean head 12" in told and "water table" not in told
+    assert "free surface" in [text.get_text() for text in fig.legends[0].get_texts()]

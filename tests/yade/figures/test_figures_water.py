@@ -98,3 +98,15 @@ def test_what_cannot_be_drawn(tmp_path):
         with pytest.raises(RecordsError, match=message):
             call()
     assert water.seepage(dam(10), path=tmp_path / "a.png").stat().st_size > 10_000
+
+
+def test_flow_lines_are_drawn_where_water_flows_and_none_where_it_stands():
+    states = {0.0: dam(10), 5.0: dam(2)}
+    field = fields.of_seepage(list(states.values()), list(states))
+
+    def flow(time):
+        return states[time].head, states[time].flux, states[time].wet, 1e-5
+
+    fig = water.pore_pressures(field, flow=flow)
+    assert [len(flow_lines(ax)) for ax in fig.axes[:2]] == [1, 0]
+    assert not any(flow_lines(ax) for ax in water.pore_pressures(field).axes)

@@ -101,6 +101,8 @@ def test_a_value_gives_what_a_file_with_it_gives(change, base, tmp_path):
     large = {words: similar.original_value(words, value, 1 / 4) for words, value in values.items()}
     if "stretch" not in change.get(("shaking",), {"stretch"}):  # a record that is there already keeps its proportion
         large[("shaking", "stretch")] = 2.0
+    if "field" in change.get(("water",), ()):  # and so do files of a field
+        large[("water",)]["field"] = {"scale": 4.0, "stretch": 2.0, **large[("water",)]["field"]}
     there, asked = similar.scaled(hill, 4).with_values(large), similar.scaled(wanted, 4)
     assert same(there, asked)
     assert same(there.like[0], wanted) and there.like[1] == 4
@@ -260,8 +262,10 @@ def test_a_value_grows_with_the_slope_as_its_unit_does():
             named = ["s", "m"]
         if key.startswith("shaking.synthetic."):  # stretched as a record is
             named = []
-        if key == "shaking.stretch":
+        if key in ("shaking.stretch", "water.field.stretch"):
             named = ["s"]
+        if key == "water.field.scale":  # of the lengths of files
+            named = ["m"]
         powers = [UNITS[u] for u in dict.fromkeys(named)]
         if key == "erosion.path":  # of triples
             powers = [*powers, UNITS["m"]]

@@ -296,6 +296,11 @@ REFUSED = {
         "water.phreatic.lines[0].points: the line at t = 1 s goes from x = -30 to x = 5 m, and the layers from -36 to",
         "water.outside: dry",
     ),
+    "short to the right": (
+        put(*OF_LINES, 0, "points", value=[[-40.0, 16.0], [-5.0, 2.0]]),
+        "water.phreatic.lines[0].points: the line at t = 1 s goes from x = -40 to x = -5 m",
+        "water.outside: dry",
+    ),
     "above the ground": (
         put(*OF_LINES, 1, "points", value=[[-40.0, 18.5], [-20.0, 18.0], [5.0, 0.5]]),
         "lines[1].points: at t = 3 s and x = -36 m the line lies at y = 18.4 m, above the ground at 16.78",

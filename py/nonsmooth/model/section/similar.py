@@ -45,9 +45,8 @@ POWERS = {
     "water.phreatic.lines.points": LENGTH,
     "water.seepage.size": LENGTH,
     "water.seepage.conductivity": SPEED,
-    "water.seepage.conductivity.*": SPEED,
-    "water.seepage.conductivity.*.along": SPEED,
-    "water.seepage.conductivity.*.across": SPEED,
+    "water.seepage.conductivity.along": SPEED,
+    "water.seepage.conductivity.across": SPEED,
     "water.seepage.states.time": TIME,
     "water.seepage.states.reservoir": LENGTH,
     "water.seepage.states.rain": SPEED,
@@ -187,10 +186,11 @@ def original_value(key, value, factor):
     words = section_values.words(key)
     if len(words) == 1:
         return _scaled({words[0]: value}, 1 / factor)[words[0]]
-    key = ".".join(words[:1] + words[2:] if words[0] in _NAMED else words)
-    if key.startswith(f"{_BY_LAYER}."):
-        key = ".".join((_BY_LAYER, "*", *words[4:]))
-    return _value(key, value, 1 / factor)
+    if ".".join(words[:-1]) == _BY_LAYER:
+        return _value(_BY_LAYER, {words[-1]: value}, 1 / factor)[words[-1]]
+    if ".".join(words[:3]) == _BY_LAYER:
+        words = words[:3] + words[4:]
+    return _value(".".join(words[:1] + words[2:] if words[0] in _NAMED else words), value, 1 / factor)
 
 
 def _scaled(data, factor):
@@ -207,13 +207,21 @@ def _scaled(data, factor):
 
 
 def _value(key, value, factor):
+    if key == _BY_LAYER and isinstance(value, dict):
+        return {name: _of_layer(one, factor) for name, one in value.items()}
     if isinstance(value, dict):
-        each = key == _BY_LAYER
-        return {word: _value(f"{key}.{'*' if each else word}", inside, factor) for word, inside in value.items()}
+        return {word: _value(f"{key}.{word}", inside, factor) for word, inside in value.items()}
     if isinstance(value, list) and all(isinstance(item, dict) for item in value):
         return [_value(key, item, factor) for item in value]
     power = POWERS.get(key)
     return copy.deepcopy(value) if power is None else _times(value, power, factor)
+
+
+def _of_layer(value, factor):
+    """The conductivity of one layer: a number, or {along, across, dip}."""
+    if not isinstance(value, dict):
+        return _value(_BY_LAYER, value, factor)
+    return {word: _value(f"{_BY_LAYER}.{word}", inside, factor) for word, inside in value.items()}
 
 
 def _times(value, power, factor):

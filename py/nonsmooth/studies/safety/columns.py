@@ -10,7 +10,7 @@ COLUMNS = declared(
     Column("time_s", "s", "simulated time of all trials until here"),
     count("trial", "number of the trial, from 1; 0 are loadings, which have series of their own"),
     Column("factor", "1", "number by which strengths are divided"),
-    Column("water_m", "m", "height of the water table above its plane"),
+    Column("water_m", "m", "height of the water table above its plane; 0 under a field of water"),
     Column("speed_mean_m_per_s", "m/s", "mean speed of the disks of the mass"),
     Column("speed_max_m_per_s", "m/s", "largest speed of a disk"),
     Column("displacement_mean_m", "m", "mean displacement of the disks of the mass from where they rested at first"),

@@ -354,7 +354,8 @@ def begin(section, folder, progress=None, packing=None, world=None, damping_movi
     their step is shortened until it divides a row. ``strengths``: materials whose strengths the slope has instead of
     the section's from its first step on, as of :func:`.slope.set_strengths`.
 
-    Raises ArgumentError for what is no Section, no folder or no Packing, WorldError for what is no world or has no such
+    Raises ArgumentError for what is no Section, no folder or no Packing, WaterError for a field of water that cannot be
+    had, WorldError for what is no world or has no such
     damping, and what slope_packing.of and slope.build raise.
     """
     _check(section, folder)
@@ -368,8 +369,8 @@ def begin(section, folder, progress=None, packing=None, world=None, damping_movi
     worlds.check_damping("hard" if world is None else world, damping_moving)
     folder = Path(folder)
     results.check_folder(folder)
-    folder.mkdir(parents=True, exist_ok=True)
     field = of_section.field(section)
+    folder.mkdir(parents=True, exist_ok=True)
     began = time.monotonic()
     packed = slope_packing.of(section) if packing is None else packing
     seconds = time.monotonic() - began

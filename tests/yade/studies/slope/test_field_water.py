@@ -1,11 +1,15 @@
 """Slopes under a field of water: when it acts, what it carries, what a run tells of it, and its bits after a resume."""
 
+import argparse
+
 import numpy as np
 import pytest
 from slope_scenes import SMALL
 from yade import O
 from yade.nonsmooth import experiment, records, section, tables, worlds
 from yade.nonsmooth.model.section.reader import SCHEMA, read
+from yade.nonsmooth.commands import section_arguments
+from yade.nonsmooth.studies.safety import asked
 from yade.nonsmooth.studies.slope import slope
 from yade.nonsmooth.water import field_files, forces
 from yade.nonsmooth.water.fields import MeshField
@@ -20,6 +24,7 @@ RISE = {
         ]
     }
 }
+FAR = {"line": [[50.0, 3.0], [55.0, 3.0]], "head": 1.0}  # on no border
 LAKE = {"volume": "bulk", "phreatic": {"lines": [{"time": 0.0, "points": [[-40.0, 8.0], [10.0, 8.0]]}]}}
 
 
@@ -187,3 +192,21 @@ def test_seepage_under_a_reservoir_carries_the_displaced_weight(tmp_path):
     assert tuple(engine.totalForce)[:2] == pytest.approx((0.0, weight), rel=1e-10, abs=1e-10 * weight)
     course.run(end=0.9)
     assert engine.totalForce[0] > 0.1 * weight and 0.5 * weight < engine.totalForce[1] < weight
+
+
+def test_rates_and_heights_of_a_table_are_refused():
+    parser = argparse.ArgumentParser()
+    section_arguments.add(parser, default="rain")
+    with pytest.raises(section.SectionError, match="--water 0.5: .*rain.yaml has no water table.*leave --water out"):
+        section_arguments.read(parser.parse_args(["--water", "0.5"]))
+    chosen = section.load("rain")
+    assert asked.standing(chosen) == (chosen, None)
+    with pytest.raises(asked.SafetyError, match="--table 2: .* has no water table, .*leave --table out"):
+        asked.standing(chosen, 2.0)
+
+
+def test_a_field_that_cannot_be_had_is_refused_before_anything_is_done(tmp_path):
+    water = {"seepage": {"size": 1.5, "conductivity": 1e-5, "states": [{"time": 0.0, "boundaries": [FAR]}]}}
+    with pytest.raises(experiment.WaterError, match="^section: water.seepage"):
+        experiment.begin(made(water), tmp_path / "run")
+    assert not (tmp_path / "run").exists()
