@@ -15,7 +15,7 @@ __all__ = ["CONTROLS", "draw"]
 #: Variants that stand beside the shipped slope in the first figure, as far as they have run.
 CONTROLS = ("no-weakening", "no-release")
 #: Those whose release stands beside that of the shipped slope in another, and when they are drawn [s] after t2.
-RELEASES, RELEASED = ("dilatancy", "slip-or-dilatancy"), 6.0
+RELEASES, RELEASED = ("dilatancy", "slip-or-dilatancy"), 10.0
 
 
 def draw(found, out) -> list:
