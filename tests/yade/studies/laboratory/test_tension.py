@@ -337,6 +337,16 @@ def test_runs_are_opened_and_say_what_was_measured(five):
         run.figure("forces")
 
 
+def test_one_test_alone_has_the_bits_of_a_campaigns(five, tmp_path):
+    out, tests, found = five
+    run = campaigns.run_tension_test(tests[0], tmp_path / "one")
+    for name in ("series.csv", "breaks.csv", "snapshots/end.npz"):
+        assert (run.folder / name).read_bytes() == (out / "tests" / list(found)[0] / name).read_bytes(), name
+    before = (run.folder / "series.csv").stat().st_mtime_ns
+    assert campaigns.run_tension_test(tests[0], tmp_path / "one", resume=True).strength == run.strength
+    assert (run.folder / "series.csv").stat().st_mtime_ns == before
+
+
 def test_a_campaign_sums_up_its_groups_and_is_drawn(five, tmp_path):
     out, tests, found = five
     measured = [run.strength for run in found.values()]
