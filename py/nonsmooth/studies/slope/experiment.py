@@ -243,7 +243,7 @@ class Experiment(driver.Course):
         if begin != course.field_begin(before, self.section):
             self.slope.water.field = pore_pressure.field(self.field, begin)
         if self.release is not None:  # before disks go, and a checkpoint is written
-            self.release.look(disks, self.state.moving is not None)
+            self.release.look(tables.bodies(self.slope.solver), self.state.moving is not None)
         due = erosion.due(before, self.state, self.section)
         if due:
             x, y = self.monitor.take_out(due, tables.bodies(self.slope.solver))
