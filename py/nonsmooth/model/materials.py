@@ -15,7 +15,8 @@ from ..system import checks
 from ..system.whole_files import write_atomically
 from . import section
 from .section import building as section_building, units as section_units, values as section_values
-from .section.reader import SCHEMA, Document, SectionError, read
+from .section.folder import SCHEMA
+from .section.reader import Document, SectionError, read
 
 __all__ = ["QUANTITIES", "REDUCED", "SHIPPED", "bare", "data", "divided", "load", "of", "save", "smooth"]
 

@@ -405,7 +405,7 @@ def test_a_missing_package_is_one_message(without, tmp_path):
     done = plain(f"{path}from nonsmooth import records\nprint('read')\nfrom nonsmooth import section", tmp_path)
     # what needs none of it works
     assert done.stdout == "read\n" and done.returncode == 1
-    assert done.stderr == f"error: nonsmooth.model.geometry needs {SAID.format(python=PYTHON)}\n"
+    assert done.stderr == f"error: nonsmooth.model.section.erosion needs {SAID.format(python=PYTHON)}\n"
     # imports by others stay Python's own, and one who tries without is heard
     done = plain(
         f"{path}import nonsmooth\n"

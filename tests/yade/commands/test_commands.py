@@ -329,9 +329,9 @@ def test_nothing_lists_files_but_asks_for_whole_ones():
         for _ in re.findall(r"\.r?glob\(|\.iterdir\(|listdir\(|scandir\(|os\.walk\(", path.read_text())
     ]
     assert sorted(lists) == [
+        "folder.py",
         "installation.py",
         *["keys.py"] * 2,  # this package
-        "loading.py",
         "machine.py",
         "scripts.py",  # the lessons that there are
         *["whole_files.py"] * 4,

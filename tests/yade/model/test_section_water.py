@@ -13,7 +13,8 @@ ROOT = Path(__file__).resolve().parents[3]
 sys.path.insert(0, str(ROOT / "py"))
 from nonsmooth import section, similar  # noqa: E402
 from nonsmooth.model.section import data as section_data  # noqa: E402
-from nonsmooth.model.section.reader import SCHEMA, read  # noqa: E402
+from nonsmooth.model.section.folder import SCHEMA  # noqa: E402
+from nonsmooth.model.section.reader import read  # noqa: E402
 from nonsmooth.water import of_section  # noqa: E402
 from nonsmooth.water import field_files  # noqa: E402
 from nonsmooth.water.fields import FieldError, MeshField, PhreaticLine  # noqa: E402

@@ -7,6 +7,7 @@ slope of Taboada and Estrada (2009), sections 5 and 6.
 """
 
 from .erosion import Window
+from .folder import FOLDER  # noqa: F401
 from .loading import block, load, of, shipped
 from .parts import (
     Disks,
@@ -22,7 +23,7 @@ from .parts import (
     Wall,
     Water,
 )
-from .reader import FOLDER, SectionError  # noqa: F401
+from .reader import SectionError
 from .section import MOST_DISKS, Section
 
 __all__ = [

@@ -9,11 +9,12 @@ from __future__ import annotations
 
 from pathlib import Path
 
+from .folder import FOLDER, shipped
+
 __all__ = ["KEY", "merged", "on_base"]
 
 KEY = "base"
 DEEPEST = 5  # bases of bases
-FOLDER = Path(__file__).resolve().parents[2] / "sections"
 
 
 def on_base(document, read):
@@ -38,11 +39,10 @@ def on_base(document, read):
 
 def _place(document, base, path):
     """The file that a base names in the file ``path``."""
-    shipped = FOLDER / f"{base}.yaml"
     if Path(base).name == base and not Path(base).suffix:
-        if not shipped.is_file() or base.endswith(".schema"):
+        if base not in shipped():
             document.refuse((KEY,), f"{base!r} is no shipped section", f"give {_choices()}")
-        return shipped
+        return FOLDER / f"{base}.yaml"
     found = path.parent / base
     if not found.is_file():
         document.refuse((KEY,), f"there is no file {base}", f"give {_choices()}")
@@ -50,8 +50,7 @@ def _place(document, base, path):
 
 
 def _choices():
-    names = sorted(p.stem for p in FOLDER.glob("*.yaml") if not p.stem.endswith(".schema"))
-    return f"one of {', '.join(names)}, or the path of a section file from the folder of this one"
+    return f"one of {', '.join(shipped())}, or the path of a section file from the folder of this one"
 
 
 def merged(below, above):

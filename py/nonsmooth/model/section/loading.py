@@ -8,16 +8,12 @@ from pathlib import Path
 
 from ...system import checks
 from . import building
+from .folder import FOLDER, SCHEMA, shipped
 from .parts import Layer
-from .reader import FOLDER, SCHEMA, SectionError, read, take
+from .reader import SectionError, read, take
 from .section import Section
 
 __all__ = ["block", "load", "of", "shipped"]
-
-
-def shipped() -> list[str]:
-    """Names of the sections that come with the package."""
-    return sorted(p.stem for p in FOLDER.glob("*.yaml") if not p.stem.endswith(".schema"))
 
 
 def block(width: float, height: float, **fields) -> Section:

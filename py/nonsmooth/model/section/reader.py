@@ -25,9 +25,6 @@ __all__ = ["Document", "SectionError", "read", "schema", "take", "values"]
 
 # What a file may ask for, so that reading it ends within seconds; the shipped section has 17 kB, 400 values and 6
 # levels.
-FOLDER = Path(__file__).resolve().parents[2] / "sections"  # those that come with the package
-SCHEMA = FOLDER / "section.schema.yaml"
-
 LARGEST_FILE = 500_000  # bytes
 MOST_VALUES = 50_000  # with each alias (`*name`) counted as what it stands for
 DEEPEST = 50  # lists and maps inside each other

@@ -17,7 +17,8 @@ from functools import cache
 
 from ...system import checks
 from . import data as section_data
-from .reader import SCHEMA, SectionError, schema
+from .folder import SCHEMA
+from .reader import SectionError, schema
 
 __all__ = ["Given", "NoSuchKey", "given", "keep", "keep_value", "put", "short", "with_values", "words"]
 

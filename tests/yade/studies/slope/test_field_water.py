@@ -7,7 +7,8 @@ import pytest
 from slope_scenes import SMALL
 from yade import O
 from yade.nonsmooth import experiment, records, section, tables, worlds
-from yade.nonsmooth.model.section.reader import SCHEMA, read
+from yade.nonsmooth.model.section.folder import SCHEMA
+from yade.nonsmooth.model.section.reader import read
 from yade.nonsmooth.commands import section_arguments
 from yade.nonsmooth.studies.safety import asked
 from yade.nonsmooth.studies.slope import slope
