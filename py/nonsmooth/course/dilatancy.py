@@ -25,8 +25,7 @@ __all__ = ["dilation", "released"]
 
 def dilation(share, at_failure):
     """1 - φ/φ₀ around each disk, of shape (n,), by its area shares now and at failure; 1 where one of them is 0."""
-    there = (share > 0) & (at_failure > 0)
-    return 1 - np.divide(share, at_failure, out=np.zeros(len(share)), where=there)
+    return 1 - np.divide(share, at_failure, out=np.zeros(len(share)), where=at_failure > 0)
 
 
 def released(before, largest, now, whole, seconds=0.0, drainage_time=None):

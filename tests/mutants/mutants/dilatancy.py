@@ -17,7 +17,7 @@ MUTANTS = (
     mutant("packing-alone", PACKING, "return values + np.bincount(i, values[j], len(x))", "return values + 0 * np.bincount(i, values[j], len(x))", "half of the neighbours are left out",
            SHARES + "::test_a_stretched_packing_is_read_back_by_neighbourhoods_and_not_by_cells"),
     # ---- the rule
-    mutant("dilation-alone", RULE, "there = (share > 0) & (at_failure > 0)", "there = at_failure > 0", "a disk whose packing was none is none that stands alone",
+    mutant("dilation-alone", RULE, "where=at_failure > 0", "where=share > 0", "a disk whose packing was none is none that stands alone",
            RULES + "::test_a_disk_that_stands_alone_then_or_now_holds_no_pressure"),
     mutant("dilation-comes-back", RULE, "return np.maximum(before, new), np.maximum(largest, now)", "return np.clip(now / whole, 0, 1), now", "pressure comes back where the mass gets denser",
            RULES + "::test_it_never_falls_without_drainage"),

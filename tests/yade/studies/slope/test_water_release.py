@@ -96,7 +96,7 @@ def test_stretched_by_hand_it_releases_by_its_rule(tmp_path):
     release.time -= 3.0
     release.look(wide, True)
     later = tables.released_shares(run.slope.water, run.slope.first_disk, run.slope.count)
-    assert later == pytest.approx(shares / np.e, rel=1e-9)
+    assert later == pytest.approx(shares / np.e, rel=1e-9) and release.time == O.time  # from which on it counts next
     again = WaterRelease(run.slope, release.content())
     assert again.content() == release.content()
     release.time -= 100.0
