@@ -28,12 +28,7 @@ CYCLE_STRAIN = (
 
 def read_arguments():
     parser = argparse.ArgumentParser(prog="biaxial.py", description=__doc__.partition("\n\n")[0])
-    parser.add_argument(
-        "--material",
-        default="wwr",
-        metavar="NAME|FILE",
-        help="wwr, the paper's weakly weathered rock (default), or a material file",
-    )
+    arguments.add_material(parser)
     parser.add_argument(
         "--confining",
         type=arguments.pressures(),
@@ -42,23 +37,7 @@ def read_arguments():
         help="confining pressures [MPa] (default: 0.25 to 16)",
     )
     arguments.add_disks(parser, 5000, "disks of the sample")
-    parser.add_argument(
-        "--diameter",
-        type=arguments.positive,
-        nargs=2,
-        default=(1.0, 4.0),
-        metavar=("MIN", "MAX"),
-        help="diameters [m] (default: 1 4)",
-    )
-    parser.add_argument(
-        "--fraction",
-        type=arguments.positive,
-        default=0.848,
-        help="packing fraction that the sample is made with (default: %(default)s)",
-    )
-    parser.add_argument(
-        "--aspect", type=arguments.positive, default=2.0, help="height over width (default: %(default)s)"
-    )
+    arguments.add_sample(parser)
     arguments.add_seeds(parser, [1], "seeds of the packings; several give confidence intervals")
     parser.add_argument(
         "--platens",

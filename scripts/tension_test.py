@@ -29,12 +29,7 @@ else:  # YADE runs in processes of its own
 def read_arguments():
     usual = tension_test.TensionTest
     parser = argparse.ArgumentParser(prog="tension_test.py", description=__doc__.partition("\n\n")[0])
-    parser.add_argument(
-        "--material",
-        default="wwr",
-        metavar="NAME|FILE",
-        help="wwr, the paper's weakly weathered rock (default), or a material file",
-    )
+    arguments.add_material(parser)
     parser.add_argument(
         "--disks",
         type=int,
@@ -44,23 +39,7 @@ def read_arguments():
         metavar="N",
         help="disks of a sample; several compare sizes (default: 2000)",
     )
-    parser.add_argument(
-        "--diameter",
-        type=arguments.positive,
-        nargs=2,
-        default=(1.0, 4.0),
-        metavar=("MIN", "MAX"),
-        help="diameters [m] (default: 1 4)",
-    )
-    parser.add_argument(
-        "--fraction",
-        type=arguments.positive,
-        default=0.848,
-        help="packing fraction that the sample is made with (default: %(default)s)",
-    )
-    parser.add_argument(
-        "--aspect", type=arguments.positive, default=2.0, help="height over width (default: %(default)s)"
-    )
+    arguments.add_sample(parser)
     arguments.add_seeds(parser, [1, 2, 3, 4, 5], "seeds of the samples (default: 1 to 5)")
     parser.add_argument(
         "--inertia",

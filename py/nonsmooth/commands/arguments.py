@@ -7,7 +7,19 @@ import contextlib
 import os
 import sys
 
-__all__ = ["EachOnce", "add_disks", "add_out", "add_runs", "add_seeds", "add_threads", "bar", "positive", "pressures"]
+__all__ = [
+    "EachOnce",
+    "add_disks",
+    "add_material",
+    "add_out",
+    "add_runs",
+    "add_sample",
+    "add_seeds",
+    "add_threads",
+    "bar",
+    "positive",
+    "pressures",
+]
 
 
 def pressures(least=1):
@@ -64,6 +76,35 @@ def add_threads(parser, what, type=int):
 def add_disks(parser, usual, what):
     """Adds --disks, ``what`` in words; ``usual``: their number where none is given."""
     parser.add_argument("--disks", type=int, default=usual, metavar="N", help=f"{what} (default: %(default)s)")
+
+
+def add_material(parser):
+    """--material of a sample: the paper's rock, or a file."""
+    parser.add_argument(
+        "--material",
+        default="wwr",
+        metavar="NAME|FILE",
+        help="wwr, the paper's weakly weathered rock (default), or a material file",
+    )
+
+
+def add_sample(parser):
+    """--diameter, --fraction, --aspect of a sample of the laboratory."""
+    parser.add_argument(
+        "--diameter",
+        type=positive,
+        nargs=2,
+        default=(1.0, 4.0),
+        metavar=("MIN", "MAX"),
+        help="diameters [m] (default: 1 4)",
+    )
+    parser.add_argument(
+        "--fraction",
+        type=positive,
+        default=0.848,
+        help="packing fraction that the sample is made with (default: %(default)s)",
+    )
+    parser.add_argument("--aspect", type=positive, default=2.0, help="height over width (default: %(default)s)")
 
 
 def add_seeds(parser, usual, what):

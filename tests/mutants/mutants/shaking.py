@@ -71,7 +71,7 @@ MUTANTS = (
     mutant("slip-level", SURFACE, "if way @ section.downslope < 0:", "if False:", "a level surface slips to the right, wherever the slope falls", "plain:test_surface_slip.py"),
     mutant("slip-below", SURFACE, "_mean(along, one.above) - _mean(along, one.below)", "_mean(along, one.above)", "what an interface lies on is taken to stay", "plain:test_surface_slip.py"),
     mutant("shaken-order", SECTION, "motion = motion.corrected(raw[\"baseline\"])", "pass", "a baseline is not taken from the record", "plain:test_shaken_sections.py"),
-    mutant("shaken-place", SECTION, "folder = Path(document.path).parent if document.is_file else Path()", "folder = Path()", "a record is looked for in the working folder",
+    mutant("shaken-place", PY + "model/section/reader.py", "folder = Path(self.path).parent if self.is_file else Path()", "folder = Path()", "a record is looked for in the working folder",
            "plain:test_shaken_sections.py"),
     mutant("shaken-mirrored", SECTION, '"reversed": not raw.get("reversed", False)', '"reversed": raw.get("reversed", False)', "a mirrored slope is shaken to the same side", "plain:test_shaken_sections.py"),
     mutant("shaken-kept", SECTION, '"stretch": 1.0,\n        "reversed": False,', '"stretch": 1.0,\n        "reversed": True,', "a run keeps its record turned round", "plain:test_shaken_sections.py"),

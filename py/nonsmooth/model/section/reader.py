@@ -92,6 +92,13 @@ class Document:
         """Whether the data are those of a file, ``path``; others are of Python."""
         return self._root is not None
 
+    def beside(self, path: str) -> str:
+        """A path that the data have, as an absolute one: of a file it begins at its folder, of Python at the working
+        folder.
+        """
+        folder = Path(self.path).parent if self.is_file else Path()
+        return str((folder / Path(path).expanduser()).resolve())
+
     def line(self, keys) -> int:
         """Line (from 1) of the key path `keys`, or of the deepest part of it that exists."""
         node = self._root

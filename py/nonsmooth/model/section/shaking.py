@@ -44,10 +44,9 @@ def complete(document) -> None:
     raw = document.data.get("shaking")
     if raw is None:
         return
-    folder = Path(document.path).parent if document.is_file else Path()
     for key in ("file", "vertical_file"):
         if key in raw:
-            raw[key] = str((folder / Path(raw[key]).expanduser()).resolve())
+            raw[key] = document.beside(raw[key])
     raw.setdefault("stretch", 1.0)
     raw.setdefault("reversed", False)
 

@@ -74,10 +74,9 @@ def complete(document) -> None:
     raw = document.data.get("water", {}).get("field")
     if raw is None:
         return
-    folder = Path(document.path).parent if document.is_file else Path()
     for one in (raw, *raw.get("states", ())):
         if "file" in one:
-            one["file"] = str((folder / Path(one["file"]).expanduser()).resolve())
+            one["file"] = document.beside(one["file"])
     for name, value in (("scale", 1.0), ("stretch", 1.0), ("mirrored", False)):
         raw.setdefault(name, value)
 

@@ -65,6 +65,30 @@ class SampleCourse(driver.Course):
         body = Sample(walls, content["first_disk"], content["count"])
         return cls(test, folder, body, content["state"] | {"series": content["series"]})
 
+    def numbers(self, own):
+        """What a run of it returns: numbers of its sample and its course, with the test's ``own`` among them."""
+        s, engine = self.state, self.sample.engine
+        steps = O.iter - s["begin"]
+        found = {name: s[name] for name in ("disks", "bonds", "contacts", "wall_s", "wall_steps_s")} | {
+            "packing_fraction": s["fraction"],
+            "height_m": s["height"],
+            "width_m": s["width"],
+            **own,
+            "inertial_number": self.test.inertia,
+            "time_step_s": O.dt,
+            "steps": steps,
+            "simulated_s": O.time - s["begin_time"],
+            "wall_making_s": s["made_s"],
+            "overlap_worst_rel": engine.overlapWorstEver,
+        }
+        if not self.hard:
+            return found
+        return found | {
+            "sweeps_mean": (engine.totalIterations - s["sweeps"]) / steps,
+            "unconverged": engine.unconverged - s["unconverged"],
+            "residual": engine.residual,
+        }
+
     # ---- a row ----------------------------------------------------------------------------------
     def _steps_in_a_row(self):
         """How many steps a row is long, a number that is rounded."""

@@ -189,25 +189,4 @@ def run(folder, world=None, **plain):
     resumes = world is None and checkpoints.exists(folder)
     course = TensionCourse.resume(test, folder) if resumes else TensionCourse.begin(test, folder, world)
     course.run(Progress(folder))
-    s, engine = course.state, course.sample.engine
-    steps = O.iter - s["begin"]
-    found = {name: s[name] for name in ("disks", "bonds", "contacts", "wall_s", "wall_steps_s")} | {
-        "packing_fraction": s["fraction"],
-        "height_m": s["height"],
-        "width_m": s["width"],
-        "broke": course.broke,
-        "speed_m_per_s": s["speed"],
-        "inertial_number": test.inertia,
-        "time_step_s": O.dt,
-        "steps": steps,
-        "simulated_s": O.time - s["begin_time"],
-        "wall_making_s": s["made_s"],
-        "overlap_worst_rel": engine.overlapWorstEver,
-    }
-    if not course.hard:
-        return found
-    return found | {
-        "sweeps_mean": (engine.totalIterations - s["sweeps"]) / steps,
-        "unconverged": engine.unconverged - s["unconverged"],
-        "residual": engine.residual,
-    }
+    return course.numbers({"broke": course.broke, "speed_m_per_s": course.state["speed"]})
