@@ -15,6 +15,7 @@ from . import (
     section_water,
     shaking,
     solver,
+    space,
     state,
     walls,
     water,
@@ -39,6 +40,7 @@ MUTANTS = (
     + drawing.MUTANTS
     + water.MUTANTS
     + erosion.MUTANTS
+    + space.MUTANTS
 )
 
 #: Mutants that no test sees, and why that is left so: {name: reason}.
