@@ -3,7 +3,8 @@
 find_package(Python3 REQUIRED COMPONENTS Interpreter Development.Module)
 find_package(pybind11 REQUIRED CONFIG)
 set(NONSMOOTH_PYTHON "${CMAKE_BINARY_DIR}/python")
-pybind11_add_module(nonsmooth_contact_module MODULE "${CMAKE_SOURCE_DIR}/pkg/bindings/contact_module.cpp")
+file(GLOB binding_sources CONFIGURE_DEPENDS "${CMAKE_SOURCE_DIR}/pkg/bindings/*.cpp")
+pybind11_add_module(nonsmooth_contact_module MODULE ${binding_sources})
 target_link_libraries(nonsmooth_contact_module PRIVATE nonsmooth_contact nonsmooth_flags)
 target_compile_definitions(nonsmooth_contact_module PRIVATE "NONSMOOTH_COMPILER=\"${CMAKE_CXX_COMPILER_ID} ${CMAKE_CXX_COMPILER_VERSION}, ${CMAKE_BUILD_TYPE}\"")
 set_target_properties(nonsmooth_contact_module PROPERTIES
