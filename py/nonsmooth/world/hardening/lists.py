@@ -30,7 +30,7 @@ from yade.wrapper import (
 from .. import space
 from .error import HardenError
 
-__all__ = ["hard_engines", "loop_of"]
+__all__ = ["hard_engines", "loop_of", "newton_of"]
 
 # laws of springs, friction and damping between spheres; a law that is no contact of grains has no rigid counterpart
 _LAWS = (
@@ -66,6 +66,21 @@ def loop_of(engines):
     return loops[0]
 
 
+def newton_of(engines):
+    """The NewtonIntegrator that runs; raises HardenError where there is not one of them, or it moves a part of the bodies
+    alone."""
+    newtons = [e for e in engines if isinstance(e, NewtonIntegrator) and not e.dead]
+    if len(newtons) != 1:
+        raise HardenError(
+            f"O.engines has {len(newtons) or 'no'} NewtonIntegrator{'s' * (len(newtons) > 1)}, which moves rigid bodies: put one in, in the place of another integrator"
+        )
+    if newtons[0].mask > 0:
+        raise HardenError(
+            f"NewtonIntegrator.mask = {newtons[0].mask}: the solver takes bodies outside of the mask for moving; set mask = -1 and block the DOFs of bodies that must stay"
+        )
+    return newtons[0]
+
+
 def hard_engines(engines, shapes, in_plane, options):
     """The list for rigid contacts, in the order of ``engines``, and rows (what, became) for the table.
 
@@ -79,15 +94,7 @@ def hard_engines(engines, shapes, in_plane, options):
             f"bodies have the shapes {', '.join(unknown)}, which rigid spheres cannot touch yet: harden() takes {', '.join(kind.__name__ for kind in _SHAPES)}; set bounded = False for what nothing is to touch"
         )
     kinds = [kind for kind in _SHAPES if kind in shapes or kind is Sphere]
-    newtons = [e for e in engines if isinstance(e, NewtonIntegrator) and not e.dead]
-    if len(newtons) != 1:
-        raise HardenError(
-            f"O.engines has {len(newtons) or 'no'} NewtonIntegrator{'s' * (len(newtons) > 1)}, which moves rigid bodies: put one in, in the place of another integrator"
-        )
-    if newtons[0].mask > 0:
-        raise HardenError(
-            f"NewtonIntegrator.mask = {newtons[0].mask}: the solver takes bodies outside of the mask for moving; set mask = -1 and block the DOFs of bodies that must stay"
-        )
+    newton = newton_of(engines)
     made, rows = [], []
     if not any(isinstance(e, ForceResetter) for e in engines):
         made.append(ForceResetter())
@@ -105,7 +112,7 @@ def hard_engines(engines, shapes, in_plane, options):
         elif isinstance(engine, DomainLimiter):
             made.append(_limiter(engine))
             rows.append((name, "PyRunner, which erases the same bodies"))
-        elif engine is newtons[0]:
+        elif engine is newton:
             damping = engine.damping
             made += [
                 ContactDynamicsEngine(

@@ -8,11 +8,11 @@ import textwrap
 import numpy as np
 from tabulate import tabulate
 
-from yade.wrapper import NewtonIntegrator, NscdMat, PeriodicEngine, PyRunner, Sphere
+from yade.wrapper import NscdMat, PeriodicEngine, PyRunner, Sphere
 
 from .energies import hear_energies
 from .error import HardenError
-from .lists import hard_engines, loop_of
+from .lists import hard_engines, loop_of, newton_of
 from .steps import hard_step
 from .strengths import hard_material, restitution_of
 
@@ -125,7 +125,7 @@ def _hard_alone(soft, **options):
 
 
 def _step(O, bodies, moving):
-    (newton,) = [e for e in O.engines if isinstance(e, NewtonIntegrator) and not e.dead]
+    newton = newton_of(O.engines)
     places = np.array([b.state.pos for b in bodies if b.bounded], float).reshape(-1, 3)
     finite = places[np.all(np.isfinite(places), axis=1)]
     low, high = (finite.min(axis=0), finite.max(axis=0)) if len(finite) else (np.zeros(3), np.zeros(3))

@@ -111,6 +111,7 @@ class Watch:
         self.steps += omega.iter - first
 
     def take_new(self, omega):
+        """Gives bodies that came since the last look rigid materials."""
         if self.hardened is not None and len(omega.bodies) != self._bodies:
             self._bodies = len(omega.bodies)
             self.hardened.take(omega.bodies)
