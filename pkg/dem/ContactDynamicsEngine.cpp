@@ -6,6 +6,7 @@
 #include "SceneCheck.hpp"
 #include "YadeFeatures.hpp"
 #include <contact/problem_file.hpp>
+#include <contact/space/problem_file.hpp>
 #include <algorithm>
 #include <pkg/dem/ScGeom.hpp>
 
@@ -232,7 +233,9 @@ void ContactDynamicsEngine::dump(const std::string& path) const
 	if (!problemIsWhole)
 		throw std::runtime_error(
 		        "ContactDynamicsEngine.dump: the last step was refused, and the problem of the one before is gone: mend what was refused, and call O.step() first");
-	contact::write(path, { seam.problem, seam.warmStart, stepSolved });
+	if (wasInSpace) contact::space::write(path, { inSpace.problem, inSpace.warmStart, stepSolved });
+	else
+		contact::write(path, { seam.problem, seam.warmStart, stepSolved });
 }
 
 } // namespace yade

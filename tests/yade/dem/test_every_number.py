@@ -1082,7 +1082,7 @@ for kind, one in ELLIPSES:
         **dict.fromkeys((NAN, -1, 0), ("without a bond nobody asks for it", is_refused_with_a_bond)),
         **dict.fromkeys((INF, HUGE), NEVER_BREAKS),
     }
-    for of_bonds in ("NscdPhys of a bond", "NscdSpacePhys of a bond"):
+    for of_bonds in {f"{kind} of a bond", "NscdSpacePhys of a bond"}:
         HARMLESS[of_bonds, one] = dict.fromkeys((NAN, -1, 0))
 
 UNSEEN = (

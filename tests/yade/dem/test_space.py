@@ -404,3 +404,18 @@ def test_without_a_bond_the_residual_twisting_friction_holds():
     begin()
     O.run(50, True)
     assert one.state.angVel[2] == pytest.approx(5, rel=1e-12)
+
+
+def test_the_problem_of_a_step_is_written_and_solved_again(tmp_path):
+    from yade.nonsmooth import contact
+
+    stuff = material(0.4, rollingFriction=0.03, twistingFriction=0.02)
+    FLOORS["box"](stuff)
+    for k in range(8):
+        ball((k % 2, k // 2 % 2, R + k // 4), stuff)
+    begin(tolerance=1e-8, precision="double")
+    O.run(3, True)
+    O.engines[-2].dump(str(tmp_path / "step.h5"))
+    problem = contact.load(str(tmp_path / "step.h5"))
+    assert type(problem) is contact.SpaceProblem and len(problem.body) == O.engines[-2].candidates
+    assert contact.residual(problem).relative == pytest.approx(O.engines[-2].residual, abs=1e-12)
