@@ -49,7 +49,7 @@ FACE = {
     "servers": "running.servers",
 }
 
-__all__ = [*(name for name in FACE if "." not in name), "campaign", "contact", "errors", "figures", "records", "water"]
+__all__ = [*(name for name in FACE if "." not in name), "campaign", "contact", "errors", "figures", "records", "slip", "water"]
 
 
 class _Face(importlib.abc.MetaPathFinder, importlib.abc.Loader):

@@ -14,6 +14,7 @@ from . import (
     safety,
     section_water,
     shaking,
+    slip,
     solver,
     state,
     walls,
@@ -34,6 +35,7 @@ MUTANTS = (
     + dilatancy.MUTANTS
     + results.MUTANTS
     + shaking.MUTANTS
+    + slip.MUTANTS
     + safety.MUTANTS
     + laboratory.MUTANTS
     + drawing.MUTANTS
