@@ -73,7 +73,7 @@ if(NOT DEFINED NONSMOOTH_UNITY_BATCH)
     set(NONSMOOTH_UNITY_BATCH "${batch}" CACHE STRING "How many sources with YADE's headers are compiled as one")
 endif()
 add_library(nonsmooth_engines SHARED ${engine_sources})
-target_link_libraries(nonsmooth_engines PRIVATE nonsmooth_contact nonsmooth_neighbours nonsmooth_yade)
+target_link_libraries(nonsmooth_engines PRIVATE nonsmooth_contact nonsmooth_neighbours nonsmooth_slip nonsmooth_yade)
 set_target_properties(nonsmooth_engines PROPERTIES PREFIX ""
     UNITY_BUILD ON UNITY_BUILD_BATCH_SIZE "${NONSMOOTH_UNITY_BATCH}")
 

@@ -59,6 +59,7 @@ __all__ = [
     "figures",
     "harden",
     "records",
+    "slip",
     "water",
 ]
 

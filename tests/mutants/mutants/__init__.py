@@ -14,6 +14,7 @@ from . import (
     safety,
     section_water,
     shaking,
+    slip,
     solver,
     space,
     state,
@@ -35,6 +36,7 @@ MUTANTS = (
     + dilatancy.MUTANTS
     + results.MUTANTS
     + shaking.MUTANTS
+    + slip.MUTANTS
     + safety.MUTANTS
     + laboratory.MUTANTS
     + drawing.MUTANTS
