@@ -15,6 +15,7 @@ from . import (
     section_water,
     shaking,
     solver,
+    space,
     state,
     walls,
     water,
@@ -23,6 +24,7 @@ from . import (
 MUTANTS = (
     law.MUTANTS
     + solver.MUTANTS
+    + space.MUTANTS
     + plane.MUTANTS
     + engines.MUTANTS
     + between.MUTANTS
