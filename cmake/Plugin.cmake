@@ -53,7 +53,8 @@ endfunction()
 nonsmooth_gate(nonsmooth_gate)
 
 # A translation unit that includes YADE's headers takes 30 s before its own code: two large ones, or one a core where memory holds them (3 GB each).
-file(GLOB engine_sources CONFIGURE_DEPENDS "${CMAKE_SOURCE_DIR}/pkg/dem/*.cpp" "${CMAKE_SOURCE_DIR}/pkg/dem/seam/*.cpp")
+file(GLOB engine_sources CONFIGURE_DEPENDS "${CMAKE_SOURCE_DIR}/pkg/dem/*.cpp" "${CMAKE_SOURCE_DIR}/pkg/dem/seam/*.cpp"
+    "${CMAKE_SOURCE_DIR}/pkg/dem/space/*.cpp")
 list(FILTER engine_sources EXCLUDE REGEX "/LayoutCheck\\.cpp$")
 if(NOT engine_sources)
     file(WRITE "${CMAKE_BINARY_DIR}/no_engines.cpp" "// pkg/dem holds no engines yet\n")
@@ -72,7 +73,7 @@ if(NOT DEFINED NONSMOOTH_UNITY_BATCH)
     set(NONSMOOTH_UNITY_BATCH "${batch}" CACHE STRING "How many sources with YADE's headers are compiled as one")
 endif()
 add_library(nonsmooth_engines SHARED ${engine_sources})
-target_link_libraries(nonsmooth_engines PRIVATE nonsmooth_contact nonsmooth_neighbours nonsmooth_yade)
+target_link_libraries(nonsmooth_engines PRIVATE nonsmooth_contact nonsmooth_neighbours nonsmooth_slip nonsmooth_yade)
 set_target_properties(nonsmooth_engines PROPERTIES PREFIX ""
     UNITY_BUILD ON UNITY_BUILD_BATCH_SIZE "${NONSMOOTH_UNITY_BATCH}")
 

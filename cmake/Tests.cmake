@@ -11,7 +11,7 @@ if(NOT TARGET Eigen3::Eigen)
 endif()
 if(contact_tests)
     add_executable(contact_tests ${contact_tests})
-    target_link_libraries(contact_tests PRIVATE nonsmooth_contact nonsmooth_neighbours nonsmooth_flags GTest::gtest GTest::gtest_main ZLIB::ZLIB)
+    target_link_libraries(contact_tests PRIVATE nonsmooth_contact nonsmooth_neighbours nonsmooth_slip nonsmooth_flags GTest::gtest GTest::gtest_main ZLIB::ZLIB)
     target_include_directories(contact_tests PRIVATE tests/contact)
     if(TARGET Eigen3::Eigen) # YADE computes with it, and without its vectorisation
         target_link_libraries(contact_tests PRIVATE Eigen3::Eigen)

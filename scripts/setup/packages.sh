@@ -11,7 +11,7 @@ PACKAGES_PROJECT=(
 
 # To build and run the tests, and to build the documentation with its notebooks (setup.sh --tests).
 PACKAGES_TESTS=(
-    libgtest-dev libbenchmark-dev python3-pytest python3-hypothesis
+    libgtest-dev libbenchmark-dev python3-pytest python3-hypothesis python3-iapws
     python3-sphinx furo python3-sphinx-copybutton python3-sphinxcontrib.bibtex python3-nbsphinx python3-nbconvert python3-ipykernel pandoc)
 
 # To configure, build and run the slim YADE.

@@ -133,7 +133,7 @@ def pick(args, files, near, again, refused=()):
 
 def compiled(work, main_build, picked):
     """The build of a copy with the mutants of C++, and those of them that the compiler takes."""
-    targets = ["nonsmooth_gate", "nonsmooth_engines", "nonsmooth_contact_module"]
+    targets = ["nonsmooth_gate", "nonsmooth_engines", "nonsmooth_contact_module", "nonsmooth_slip_module"]
     while True:
         mutated_sources(work / "source", [m for _, m in picked])
         try:

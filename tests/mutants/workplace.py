@@ -154,7 +154,7 @@ class Place:
         python = self.build / "python"
         python.mkdir()
         (python / "nonsmooth").symlink_to(self.source / "py" / "nonsmooth")
-        for module in own.rglob("_nonsmooth_contact*.so"):
+        for module in own.rglob("_nonsmooth_*.so"):
             (python / module.name).symlink_to(module)
 
     def change(self, mutated):

@@ -14,7 +14,7 @@ flags="-O1 -g -fno-omit-frame-pointer -fsanitize=address,undefined -fno-sanitize
 # -O1 is fast enough and keeps what the optimiser would take away; as many at a time as there are processors
 cmake -G Ninja -S "$root" -B "$build" -DCMAKE_CXX_COMPILER="$compiler" -DCMAKE_BUILD_TYPE=None -DCMAKE_CXX_FLAGS="$flags" -DNONSMOOTH_PLUGIN=OFF \
     -DNONSMOOTH_BENCHMARKS=OFF -DNONSMOOTH_CHECKS=OFF -DCMAKE_INTERPROCEDURAL_OPTIMIZATION=OFF >"$build.log" 2>&1 || { cat "$build.log"; exit 1; }
-ninja -C "$build" contact_tests nonsmooth_contact_module >"$build.log" 2>&1 || { tail -n 40 "$build.log"; exit 1; }
+ninja -C "$build" contact_tests nonsmooth_contact_module nonsmooth_slip_module >"$build.log" 2>&1 || { tail -n 40 "$build.log"; exit 1; }
 
 export ASAN_OPTIONS=detect_stack_use_after_return=1:strict_string_checks=1:abort_on_error=0 UBSAN_OPTIONS=print_stacktrace=1
 echo "== solver and collider: AddressSanitizer and UndefinedBehaviorSanitizer"

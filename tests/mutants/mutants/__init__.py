@@ -14,8 +14,10 @@ from . import (
     safety,
     section_water,
     shaking,
+    slip,
     solver,
     space,
+    space_solver,
     state,
     walls,
     water,
@@ -24,7 +26,7 @@ from . import (
 MUTANTS = (
     law.MUTANTS
     + solver.MUTANTS
-    + space.MUTANTS
+    + space_solver.MUTANTS
     + plane.MUTANTS
     + engines.MUTANTS
     + between.MUTANTS
@@ -36,11 +38,13 @@ MUTANTS = (
     + dilatancy.MUTANTS
     + results.MUTANTS
     + shaking.MUTANTS
+    + slip.MUTANTS
     + safety.MUTANTS
     + laboratory.MUTANTS
     + drawing.MUTANTS
     + water.MUTANTS
     + erosion.MUTANTS
+    + space.MUTANTS
 )
 
 #: Mutants that no test sees, and why that is left so: {name: reason}.

@@ -1,58 +1,39 @@
-"""The law and the sweeps in space: plain C++, judged by GoogleTest."""
+"""Spheres in space on YADE's side, bonds there, facets that meet, and scripts that go hard."""
 from mutant import mutant
 
-LAW, PROBLEM, GENERAL = "pkg/contact/space/law.hpp", "pkg/contact/space/problem.hpp", "pkg/contact/space/law.cpp"
-KERNELS, FILL, RESIDUAL = "pkg/contact/space/kernels.inc", "pkg/contact/space/fill.cpp", "pkg/contact/space/residual.cpp"
-SURVEY, CORRECTION, CUT = "pkg/contact/space/survey.cpp", "pkg/contact/space/position_correction.cpp", "pkg/contact/strip_cut.cpp"
-ONE, MADE, PATHS = "gtest:*SpaceOneContact*", "gtest:SpaceManufactured.*", "gtest:SpacePaths.*"
+SEAM, BOND, LAW = "pkg/dem/space/SpaceSeam.cpp", "pkg/dem/space/SpaceBond.cpp", "pkg/contact/space/bond.hpp"
+FACE, JOINTS, NEAR, PHYS = "pkg/dem/space/FaceGeom.cpp", "pkg/dem/space/FaceJoints.cpp", "pkg/contact/space/nearest.hpp", "pkg/dem/space/NscdSpacePhys.cpp"
+HARD = "py/nonsmooth/world/hardening"
+SPACE, HARDENING = "test_space.py", "test_hardening.py"
 
 MUTANTS = (
-    # ---- each row of the law
-    mutant("space-normal", LAW, "obeyNormal(c, from.n - inverse.n * opening, inverse.n)", "obeyNormal(c, from.n + inverse.n * opening, inverse.n)",
-           "contacts pull where bodies approach", ONE, MADE),
-    mutant("space-disc", LAW, "square > threshold * threshold", "square > threshold", "the radius of a disc is the root of its threshold", ONE, MADE),
-    mutant("space-sliding", LAW, "c.friction * (c.adhesion + n)", "c.friction * n", "F_a is missing in the sliding threshold", ONE, MADE),
-    mutant("space-rolling", LAW, "c.rollingArm * (c.adhesion + n)", "c.twistingArm * (c.adhesion + n)", "rolling has the threshold of twisting", ONE, MADE),
-    mutant("space-twisting", LAW, "c.twistingArm * (c.adhesion + n)", "c.rollingArm * (c.adhesion + n)", "twisting has the threshold of rolling", ONE, MADE),
-    mutant("space-twist-row", LAW, "from.r - inverse.r * (turning - twisting * c.n)", "from.r - inverse.r * turning", "what twists counts as rolling", ONE, MADE),
-    mutant("space-twist-map", LAW, "q.r - inverse.r * (turning - twisting * c.n)", "q.r - inverse.r * turning", "the residual of rolling has what twists", MADE),
-    mutant("space-delassus", LAW, "n + wi * c.leverI * c.leverI + wj * c.leverJ * c.leverJ", "n + wi * c.leverI * c.leverI - wj * c.leverJ * c.leverJ",
-           "W_t lacks what the second body turns", MADE),
-    mutant("space-eigenvalue", GENERAL, "0.5 * (aa + bb + std::hypot(aa - bb, 2 * ab))", "0.5 * (aa + bb - std::hypot(aa - bb, 2 * ab))",
-           "of bodies that are no balls the step is that of the softest direction", "gtest:SpaceGeneral.*"),
-    mutant("space-turning", GENERAL, "cross(inverse * cross(arm, f), arm)", "cross(arm, inverse * cross(arm, f))", "turning makes a contact stiffer", "gtest:SpaceGeneral.*"),
-    mutant("space-given", LAW, "-threshold / speed * velocity", "threshold / speed * velocity", "bodies whose motion is given are pushed on by friction", "gtest:SpaceGeneral.*"),
-    # ---- mechanics
-    mutant("space-spin", PROBLEM, "cross(c.leverJ * vj.w - c.leverI * vi.w, c.n)", "cross(c.leverJ * vj.w + c.leverI * vi.w, c.n)",
-           "U_t has the rotation of the first body with the wrong sign", MADE),
-    mutant("space-aside", PROBLEM, "cross(vj.w, c.asideJ) - cross(vi.w, c.asideI)", "cross(vj.w, c.asideJ) + cross(vi.w, c.asideI)",
-           "arms across n turn the first body the wrong way", MADE),
-    mutant("space-torque", PROBLEM, "c.leverJ * turn + cross(c.asideJ, p.f) + p.m", "c.leverJ * turn + cross(c.asideJ, p.f) - p.m",
-           "moments act on the second body with the wrong sign", MADE, "gtest:SpaceMomentum.*"),
-    # ---- the same in blocks
-    mutant("space-kernel-sliding", KERNELS, "at.get(k->friction) * pressed", "at.get(k->rollingArm) * pressed", "in blocks sliding has the threshold of rolling", ONE, MADE),
-    mutant("space-kernel-rolling", KERNELS, "at.get(k->rollingArm) * pressed", "at.get(k->twistingArm) * pressed", "in blocks rolling has the threshold of twisting", ONE, MADE),
-    mutant("space-kernel-twisting", KERNELS, "at.get(k->twistingArm) * pressed", "at.get(k->rollingArm) * pressed", "in blocks twisting has the threshold of rolling", ONE, MADE),
-    mutant("space-kernel-coupled", KERNELS, "u.w + turns * turn", "u.w - turns * turn", "the turn that a tangential impulse gives is taken back from rolling",
-           "gtest:SpacePlane.*"),
-    mutant("space-kernel-arm", KERNELS, "at.get(k->leverJ) * b.w - at.get(k->leverI) * a.w", "at.get(k->leverJ) * b.w + at.get(k->leverI) * a.w",
-           "in blocks U_t has the rotation of the first body with the wrong sign", MADE),
-    mutant("space-kernel-rest", KERNELS, "push(k, at, df, cross(get(at, k->n), df), m - get(at, k->beforeM), a, b)", "push(k, at, df, cross(get(at, k->n), df), get(at, k->beforeM) - m, a, b)", "a strip that comes to rest leaves spin in velocities",
-           "gtest:SpacePinned.*"),
-    mutant("space-kernel-speeds", KERNELS, "missed + own + least", "missed + least", "speeds are held against themselves", PATHS),
-    mutant("space-kernel-normals", KERNELS, "b.v             = b.v + b.mass * df;", "b.v = b.v - b.mass * df;", "normal impulses of displacements pull the second body",
-           "gtest:SpacePositions.*"),
-    mutant("space-fill-bias", FILL, "c.biasN + u.n", "u.n", "blocks do not know the contact's own bias", MADE),
-    mutant("space-fill-given", FILL, "c.biasW + u.w", "c.biasW - u.w", "blocks take how free bodies spin for its contrary", MADE),
-    mutant("space-take", FILL, "square >= beside * thresholdF * thresholdF", "false", "contacts that slide are beside their threshold by a rounding of floats",
-           "gtest:SpacePrecision.*"),
-    mutant("space-take-open", FILL, "nF <= rounding - adhesionF", "false", "bonds that open are beside their threshold by a rounding of floats", "gtest:SpacePrecision.*"),
-    # ---- what is looked at before
-    mutant("space-ball", SURVEY, "(!(j & Survey::turns) || isZero(c.asideJ))", "true", "arms across n go into blocks, which do not know them", MADE),
-    mutant("space-axis", CUT, "axis > 0 && places.axes == 2", "axis > 0", "strips across y and z do not follow the bodies' numbers", "gtest:SpaceSymmetry.AMirrored*"),
-    mutant("space-share", RESIDUAL, "std::max(change(vi, c.leverI, c.asideI), change(vj, c.leverJ, c.asideJ))", "change(vi, c.leverI, c.asideI)",
-           "a speed is held against the first body's change alone", PATHS),
-    # ---- positions
-    mutant("space-position-slip", CORRECTION, "setVector(k.biasT, l, e.slip);", "setVector(k.biasT, l, {});", "what bonds have slipped is not taken back", "gtest:SpacePositions.*"),
-    mutant("space-position-turn", CORRECTION, "setVector(k.biasW, l, e.turn);", "setVector(k.biasW, l, {});", "what bonds have turned is not taken back", "gtest:SpacePositions.*"),
+    mutant("space-gap", SEAM, "!phys.bonded && link.gap > 0 ? link.gap / h : 0", "0", "a sphere stops above its floor", SPACE + "::test_two_balls_meet_with_restitution"),
+    mutant("space-bounce", SEAM, "c.biasN = phys.restitution * approach;", ";", "impacts in space have no restitution", SPACE + "::test_two_balls_meet_with_restitution"),
+    mutant("space-aside", SEAM, "aside                 = acrossNormal(c.n, a);", "aside                 = {};", "a floor that turns does not lift what lies far from its axis",
+           SPACE + "::test_a_floor_that_turns_about_an_axis_far_away_moves_as_its_points_do"),
+    mutant("space-order", SEAM, "both ? id1 > id2 : bodies[id1].radius > 0", "false", "a contact runs as YADE happens to keep it", SPACE + "::test_the_same_bits_on_any_number_of_threads_and_after_loading"),
+    mutant("space-shear-work", SEAM, "shearWork = 0.5 * dot(rows.t, u0.t + u1.t)", "shearWork = dot(rows.t, u1.t)", "sliding loses what it loses at the end of the step", SPACE + "::test_energy_is_accounted_for"),
+    mutant("space-moment-work", SEAM, "0.5 * dot(p.m, u0.w + u1.w)", "0", "rolling and twisting lose nothing", SPACE + "::test_energy_is_accounted_for"),
+    mutant("space-reaction", SEAM, "rj.w + (c.leverJ * turn + cross(c.asideJ, p.f) + p.m)", "rj.w + (c.leverJ * turn + cross(c.asideJ, p.f))", "O.forces has no torque of rolling resistance",
+           SPACE + "::test_rolling_resistance_stops_a_ball_that_rolls"),
+    mutant("space-bond-shear", LAW, "if (path.shear > bound) return BreakMode::Shear;", "", "what was sheared is a mixed break", SPACE + "::test_a_bonded_pair_that_is_sheared_breaks_in_shear"),
+    mutant("space-bond-twist-axis", LAW, "s = d.twist / zone.twisting", "s = 0", "a twist breaks no bond", SPACE + "::test_a_bond_that_is_overloaded_breaks_in_the_mode_of_its_load"),
+    mutant("space-bond-twist-sign", BOND, "angle / length * sine.dot(phys.axis)", "angle / length * sine.norm()", "a roll counts as a twist", SPACE + "::test_a_roll_is_no_twist"),
+    mutant("space-bond-path", SEAM, "phys.twistingPath += y.twisting;", "", "what was twisted off is a mixed break", SPACE + "::test_a_bond_that_is_overloaded_breaks_in_the_mode_of_its_load"),
+    mutant("space-area", PHYS, "*force *= areaOf(length) / length;", "*force *= 1;", "a bond in space is as strong as a metre of one in the plane", SPACE + "::test_a_bond_bears_its_threshold_and_no_more"),
+    mutant("space-twisting-arm", PHYS, "twistingArm         = length", "twistingArm         = 0.5 * length", "a bond bears half of its twisting torque", SPACE + "::test_a_bond_bears_its_threshold_and_no_more"),
+    mutant("space-residual-twisting", PHYS, "bonded ? twistingArm : residualTwistingArm", "twistingArm", "without a bond the peak's twisting friction holds", SPACE + "::test_without_a_bond_the_residual_twisting_friction_holds"),
+    mutant("faces-owner", JOINTS, "if (other.id < own.id) return false;", "", "a ridge has two contacts", SPACE + "::test_a_ball_on_a_ridge_has_one_contact_and_in_a_groove_two"),
+    mutant("faces-goes-on", JOINTS, "there.feature == space::Nearest::Face || ", "", "a ball feels the edges of a floor of facets", SPACE + "::test_facets_that_lie_in_one_plane_are_one_floor"),
+    mutant("faces-lost", "pkg/dem/Law2_ScGeom_NscdPhys_SignoriniCoulomb.cpp", "(face && !face->owned)", "false", "a contact stays at the facet that the ball has left",
+           SPACE + "::test_facets_that_lie_in_one_plane_are_one_floor"),
+    mutant("faces-edge", NEAR, "within ? from + s * along : s <= 0 ? from : t.at(k + 1)", "s <= 0 ? from : t.at(k + 1)", "an edge is its two ends", SPACE + "::test_a_ball_on_a_ridge_has_one_contact_and_in_a_groove_two"),
+    mutant("harden-cohesion", HARD + "/strengths.py", "per_area = 1 / math.pi if disk_radius is None", "per_area = 1 if disk_radius is None", "cohesion in space acts on a radius squared",
+           HARDENING + "::test_a_material_keeps_its_strengths"),
+    mutant("harden-rolling", HARD + "/strengths.py", "0.5 * max(0.0, soft.etaRoll)", "max(0.0, soft.etaRoll)", "rolling resistance is twice YADE's", HARDENING + "::test_a_material_keeps_its_strengths"),
+    mutant("harden-fall", HARD + "/steps.py", "math.sqrt(2 * g * fall)", "0", "the step forgets that spheres fall", HARDENING + "::test_the_step_is_a_tenth_of_the_smallest_diameter_at_the_greatest_speed"),
+    mutant("harden-period", HARD + "/scene.py", "engine.iterPeriod = max(1, round(period / step))", "pass", "engines act a hundred times too seldom", HARDENING + "::test_engines_act_after_the_same_time"),
+    mutant("harden-functor", HARD + "/strengths.py", "restitution=restitution or 0", "restitution=0", "the functor's restitution is lost", HARDENING + "::test_restitution_comes_from_the_functor_or_the_caller"),
+    mutant("harden-time", HARD + "/script.py", "max(1, round(steps * self._soft_step / omega.dt))", "steps", "a script's number of steps is taken for rigid ones", HARDENING + "::test_both_ways_are_told_beside_each_other"),
+    mutant("harden-later", HARD + "/script.py", "self.hardened.take(omega.bodies)", "pass", "bodies that a script adds stay soft", HARDENING + "::test_a_script_runs_hard_as_it_is"),
 )

@@ -381,7 +381,11 @@ def test_the_list_has_what_the_package_imports_and_the_set_up_installs_it():
                 imported |= {one.name.split(".")[0] for one in node.names}
             elif isinstance(node, ast.ImportFrom) and not node.level:
                 imported.add(node.module.split(".")[0])
-    foreign = imported - set(sys.stdlib_module_names) - {"yade", "_nonsmooth_contact", "nonsmooth", "__main__"}
+    foreign = (
+        imported
+        - set(sys.stdlib_module_names)
+        - {"yade", "_nonsmooth_contact", "_nonsmooth_slip", "nonsmooth", "__main__"}
+    )
     assert foreign & {"numpy", "IPython"} and foreign <= {one.module for one in listed}
     assert requirements.remedy("yaml") == "apt install python3-yaml, or pip install PyYAML"
 

@@ -17,6 +17,7 @@ from yade.nonsmooth.heaps import study
 from yade.nonsmooth.judges.benchmark import scale, spheres, suite
 from yade.nonsmooth.judges.verification import runner, soak
 from yade.nonsmooth.laboratory import calibration, campaign, effects, rock_table, table1, tension_campaign, wall_shear
+from yade.nonsmooth.slip import block
 from yade.nonsmooth.studies.comparison import cost, course
 from yade.nonsmooth.studies.paper import paper_slopes, readings
 from yade.nonsmooth.studies.slope import slope
@@ -92,6 +93,7 @@ HOLDER = {  # what a command asks: a module or class, and its function
     "table1.py": (table1, "run"),
     "tension_test.py": (tension_campaign, "run"),
     "rocks.py": (rock_table, "run"),
+    "sliding_block.py": (block, "slide"),
     "verify.py": (runner, "run_checks"),
     "wedge.py": (subprocess, "run"),
 }
@@ -468,6 +470,24 @@ WHERE = {
         "--threads": (("--threads", 7), lambda a: a.words[3], 7),
         "--resume": (("--resume",), lambda a: a.words[4], True),
     },
+    "sliding_block.py": {
+        "--law": (
+            ("--law", "step", "--value", "friction=0.3", "critical_slip=2"),
+            lambda a: (a.words[0].names, a.words[0].values),
+            (("step",), {"friction": 0.3, "critical_slip": 2.0}),
+        ),
+        "--set": (("--set", "lucas"), lambda a: a.words[0].names, ("tabulated",)),
+        "--value": (("--set", "vaiont", "--value", "thickness=0.02"), lambda a: a.words[0].values["thickness"], 0.02),
+        "--dip": (("--set", "vaiont", "--dip", 25), lambda a: a.words[1].dip, 25.0),
+        "--depth": (("--set", "vaiont", "--dip", 25, "--depth", 50), lambda a: a.words[1].depth, 50.0),
+        "--density": (("--set", "vaiont", "--dip", 25, "--density", 2100), lambda a: a.words[1].density, 2100.0),
+        "--speed": (("--set", "vaiont", "--speed", 3), lambda a: a.words[1].speed, 3.0),
+        "--normal-stress": (("--set", "vaiont", "--normal-stress", 2e6), lambda a: a.words[1].normal_stress, 2e6),
+        "--step": (("--set", "vaiont", "--step", 0.02), lambda a: a.words[2], 0.02),
+        "--time": (("--set", "vaiont", "--time", 7), lambda a: a.words[3].time, 7.0),
+        "--slip": (("--set", "vaiont", "--slip", 4), lambda a: a.words[3].slip, 4.0),
+        "--share": (("--set", "vaiont", "--share", 0.2), lambda a: a.words[3].share, 0.2),
+    },
     "table1.py": {
         "--material": (("--material", "{files}/stone.yaml"), lambda a: Path(a.words[7]).name, "stone.yaml"),
         "--disks": (("--disks", 88), lambda a: a.words[1], 88),
@@ -524,6 +544,10 @@ RUN = {
         "--no-forces": "test_moving.py::test_options_of_the_command_reach_the_film",
     },
     "sweep.py": {"--draw": "test_campaign.py::test_results_are_drawn_against_what_was_varied"},
+    "sliding_block.py": {
+        "--out": "test_slip_block.py::test_the_command_writes_series_summary_and_figure",
+        "--list": "test_slip_block.py::test_the_command_tells_laws_and_sets",
+    },
     "soak.py": {"--out": "test_soak.py::test_a_short_soak", "--threads": "test_soak.py::test_a_short_soak"},
     "verify.py": {"--list": "test_options.py::test_checks_are_listed"},
     "wedge.py": {"--resume": "test_examples.py::test_the_wedge_runs_what_is_not_there_and_draws_all"},
@@ -612,6 +636,14 @@ def test_checks_are_listed(in_process):
 @pytest.mark.parametrize(
     "name, words, said",
     [
+        ("sliding_block.py", (), "give --law, or --set"),
+        ("sliding_block.py", ("--set", "lucas", "--depth", 3), "--depth and --density are of a slope: give --dip"),
+        ("sliding_block.py", ("--set", "lucas", "--dip", 3, "--normal-stress", 1e6), "--normal-stress with --dip"),
+        ("sliding_block.py", ("--set", "lucas", "--value", "friction"), "'friction': give KEY=NUMBER"),
+        ("sliding_block.py", ("--set", "vajont"), "parameter set 'vajont': it must be one of vaiont"),
+        ("sliding_block.py", ("--law", "gel"), "slip law 'gel': it must be one of none"),
+        ("sliding_block.py", ("--set", "vaiont", "--dip", 95), "dip 95.0: give degrees from 0"),
+        ("sliding_block.py", ("--set", "vaiont", "--share", 2), "share 2.0: give a share from 0"),
         ("calibrate.py", ("--cohesion", 0, "--friction", 30), "--cohesion 0: it must be positive"),
         (
             "calibrate.py",

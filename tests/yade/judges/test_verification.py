@@ -14,7 +14,7 @@ from yade.nonsmooth.system import keys
 from contact_scenes import material
 
 near, between, at_most, at_least = (getattr(Claims(), kind) for kind in ("near", "between", "at_most", "at_least"))
-OURS = ("contacts", "bonds", "impacts", "impact_chains", "water")
+OURS = ("contacts", "bonds", "impacts", "impact_chains", "water", "thermal")
 
 
 def module_of(check):

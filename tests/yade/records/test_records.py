@@ -239,6 +239,7 @@ def test_all_losses_are_columns():
         ("studies.laboratory.tension_test", "COLUMNS"),
         ("studies.laboratory.wall_shear", "COLUMNS"),
         ("studies.heaps.columns", "COLUMNS"),
+        ("slip.block", "COLUMNS"),
     ],
 )
 def test_every_declared_column_is_documented(module, name):

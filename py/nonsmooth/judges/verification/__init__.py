@@ -33,6 +33,7 @@ MODULES = (
     "avalanche",
     "paper",
     "water",
+    "thermal",
 )
 
 

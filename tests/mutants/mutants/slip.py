@@ -1,0 +1,68 @@
+"""Laws of slip surfaces and the block that tries them."""
+from mutant import mutant
+
+SLIP = "pkg/contact/slip/"
+ZONE, PROFILE, WATER, FLASH = SLIP + "heated_zone.cpp", SLIP + "profile.cpp", SLIP + "water.hpp", SLIP + "flash_heating.cpp"
+REACTION, MELT, TABLE = SLIP + "decomposition.cpp", SLIP + "shear_melting.cpp", SLIP + "tabulated.cpp"
+BLOCK, SETS, FIGURE = ("py/nonsmooth/slip/block.py", "py/nonsmooth/slip/parameter_sets.py", "py/nonsmooth/figures/sliding_block.py")
+
+MUTANTS = (
+    # ---- functions of slip
+    mutant("slip-linear", SLIP + "linear.hpp", "slip[k] < critical ? 1 - slip[k] / critical : 0", "slip[k] < critical ? slip[k] / critical : 0",
+           "linear weakening begins with nothing", "gtest:SlipWeakening.*"),
+    mutant("slip-step", SLIP + "step.hpp", "slip[k] < critical ? 1 : 0", "slip[k] <= critical ? 1 : 0", "strength is there at D_c still",
+           "gtest:SlipWeakening.*"),
+    mutant("slip-exponential", SLIP + "exponential.hpp", "std::exp(-slip[k] / critical)", "std::exp(-slip[k])", "an exponential law does not know D_c",
+           "gtest:SlipWeakening.*"),
+    mutant("slip-what-is-left", SLIP + "by_slip.cpp", "weakened + (friction - weakened) * share[k]", "friction * share[k]",
+           "nothing is left of friction in the end", "gtest:SlipWeakening.*"),
+    # ---- a zone that heats
+    mutant("slip-half-zone", ZONE, "1 / (heatCapacity * width())", "2 / (heatCapacity * width())", "all heat goes into one half of the zone",
+           "check:adiabatic-block", "gtest:SlipPressurization.*"),
+    mutant("slip-without-foresight", ZONE, "end < 0 || x > 2 ? std::max(B, 0.0) / (1 + x) : 0.5 * (now + end)", "std::max(B, 0.0)",
+           "a step's strength does not foresee its own heat", "check:adiabatic-block"),
+    mutant("slip-pressure-of-diffusion", ZONE, "s.pressure[k] + expand * (T[k] - s.temperature[k])", "s.pressure[k]",
+           "water does not shrink where the zone cools by diffusion", "check:leaking-block", "check:slip-on-a-plane"),
+    mutant("slip-water-stays", ZONE, "ofWater.prepare(mesh, parts.water->diffusivity, h);", "ofWater.prepare(mesh, diffusivity, h);",
+           "water diffuses as heat does", "check:leaking-block", "check:slip-on-a-plane"),
+    mutant("slip-vapour", ZONE, "*s.vapour > 0 ? 0 : q", "q",
+           "water that has boiled presses on as a liquid", "gtest:SlipPressurization.WhereWaterBoils*"),
+    mutant("slip-nodes-mean", PROFILE, "sum += width[k] * profile[k];", "sum += profile[k] * width.front();", "a zone's mean counts fine nodes as much as coarse ones",
+           "check:leaking-block", "gtest:Slip*"),
+    mutant("slip-flux", PROFILE, "0.5 * (nodes.width[k - 1] + nodes.width[k])", "nodes.width[k]", "fluxes have the distance of one node alone",
+           "gtest:SlipProfile.*", "check:leaking-block"),
+    mutant("slip-boiling", WATER, "std::exp(-4650 / kelvin)", "std::exp(-4560 / kelvin)",
+           "a digit of eq. (14)", "check:liquid-line", "gtest:SlipWater.*"),
+    mutant("slip-flash-square", FLASH, "M_PI * diffusivity / asperity * share * share", "M_PI * diffusivity / asperity * share", "V_w grows with T_w − T and not with its square",
+           "check:flash-heating"),
+    mutant("slip-flash-fall", FLASH, "weakened + (friction - weakened) * flashVelocity / slipRate", "friction * flashVelocity / slipRate",
+           "hot contacts have no friction", "check:flash-heating"),
+    mutant("slip-flash-lag", ZONE, "-std::expm1(-cells.path[c] / parts.flash->lag)", "-std::expm1(-step / parts.flash->lag)", "friction follows by time and not by slip",
+           "gtest:SlipFlash.ALagIsBySlip"),
+    mutant("slip-reaction-heat", ZONE, "s.temperature[k] -= reaction.heat / heatCapacity * amount;", "s.temperature[k] -= 0.5 * reaction.heat / heatCapacity * amount;",
+           "half of a reaction's heat is lost", "check:decomposition-caps", "gtest:SlipDecomposition.*"),
+    mutant("slip-reaction-explicit", REACTION, "std::max(begin - sink * amount, 1.0)", "std::max(begin, 1.0)",
+           "a reaction does not cool itself within a step", "check:decomposition-caps", "gtest:SlipDecomposition.*"),
+    mutant("slip-reaction-order", REACTION, "order == 1 ? left - amount : 1", "1", "what has reacted reacts again", "gtest:SlipDecomposition.*",
+           "check:decomposition-caps"),
+    mutant("slip-melt-profile", MELT, "viscosity * s / (std::sinh(s) * std::cosh(s))", "viscosity * s / std::sinh(s)", "melt is less heated by its shear than it is",
+           "check:melt-layer"),
+    mutant("slip-melt-squeezed", MELT, "factor * viscosityAt(slipRate) * length * length", "factor * viscosityAt(slipRate) * length", "melt is squeezed out by R and not by its square",
+           "check:melt-to-steady"),
+    mutant("slip-melt-grip", MELT, "std::min(grip, viscosityAt(slipRate) * slipRate / thickness)", "viscosityAt(slipRate) * slipRate / thickness",
+           "a thin layer of melt resists without a limit", "gtest:SlipMelting.*"),
+    mutant("slip-melt-excess", ZONE, "excess += 2 * mesh.width[k] * heatCapacity", "excess += mesh.width[k] * heatCapacity", "heat is lost where the zone melts",
+           "gtest:SlipMelting.*"),
+    mutant("slip-table-log", TABLE, "slipRate > 0 ? std::log(slipRate) : logs.front()", "slipRate", "a table is read at the velocity for its logarithm",
+           "gtest:SlipTable.*", "check:tabulated-friction"),
+    mutant("slip-table-lag", TABLE, "-std::expm1(-cells.path[c] / lag)", "cells.path[c] / lag", "a lag depends on the step", "gtest:SlipTable.*"),
+    # ---- the block
+    mutant("block-heat", BLOCK, "strength * path, after", "push * path, after", "heat is what the weight does", "test_slip_block.py", "check:adiabatic-block"),
+    mutant("block-up", BLOCK, "max(0.0, speed + gains * (push - strength))", "speed + gains * (push - strength)", "friction drives a block up the slope", "test_slip_block.py"),
+    mutant("block-path", BLOCK, "0.5 * (speed + after) * step", "after * step", "a block slides with the speed that it has in the end", "test_slip_block.py"),
+    mutant("block-share", BLOCK, "strength < until.share * first", "strength < until.share", "a share is taken for a stress", "test_slip_block.py"),
+    mutant("sets-like", SETS, '{**base["values"], **one["values"]}', '{**one["values"], **base["values"]}', "a set that is like another is that one", "test_slip_laws.py"),
+    mutant("sets-form", SETS, "dynamic + (static - dynamic) / (1 + speeds / velocity)", "static + (dynamic - static) / (1 + speeds / velocity)",
+           "static and dynamic friction are exchanged", "test_slip_laws.py", "check:tabulated-friction"),
+    mutant("block-figure", FIGURE, 'course["pressure_Pa"] / course["normal_stress_Pa"]', 'course["pressure_Pa"]', "pressures are drawn in Pa", "plain:test_figures_sliding_block.py"),
+)
