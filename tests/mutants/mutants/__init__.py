@@ -17,6 +17,7 @@ from . import (
     slip,
     solver,
     space,
+    space_solver,
     state,
     walls,
     water,
@@ -25,6 +26,7 @@ from . import (
 MUTANTS = (
     law.MUTANTS
     + solver.MUTANTS
+    + space_solver.MUTANTS
     + plane.MUTANTS
     + engines.MUTANTS
     + between.MUTANTS

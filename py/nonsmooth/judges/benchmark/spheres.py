@@ -1,7 +1,7 @@
 """Sweeps in space beside those in the plane, over packings that are made here: neither a slope nor YADE is needed.
 
-Spheres lie in layers in each other's hollows above a floor, disks in rows; their radii differ by some percent, so that
-about half of the neighbours touch or will in the step. One step of gravity is solved from no impulses.
+Spheres lie in layers in each other's hollows in a box, disks in rows. Their radii differ by some percent, and of
+each grain's neighbours those touch that are nearest to it. One step of gravity is solved from no impulses.
 """
 
 from __future__ import annotations
@@ -16,7 +16,7 @@ __all__ = ["HEADLINES", "disks", "headlines", "measure", "spheres"]
 
 STEP, GRAVITY, DENSITY = 5e-3, 9.81, 2500.0
 FRICTION, ROLLING, TWISTING = 0.3, 0.05, 0.05
-REACH = 0.008  # diameters: gaps that a step may close
+REACH = 0.012  # gaps [m] of grains of a metre that count as touching: with it a sphere touches nine others
 COLD_TOLERANCE = 1e-4
 
 #: Headline figures of ``space.json`` and what each is; medians.
@@ -30,30 +30,32 @@ HEADLINES = {
 
 
 def _grains(place, dice):
-    """Radii of grains at places, and the pairs that touch or may: (n,), (c, 2), gaps (c,)."""
+    """Radii of grains at places, and the pairs that touch: (n,), (c, 2)."""
     from scipy.spatial import cKDTree
 
     radius = dice.uniform(0.49, 0.502, len(place))
     pairs = cKDTree(place).query_pairs(2 * 0.502 + REACH, output_type="ndarray")
     pairs = pairs[np.lexsort(pairs.T[::-1])]
     gap = np.linalg.norm(place[pairs[:, 1]] - place[pairs[:, 0]], axis=1) - radius[pairs].sum(axis=1)
-    near = gap < REACH
-    return radius, pairs[near], gap[near]
+    return radius, pairs[gap < REACH]
 
 
-def _contacts(place, radius, pairs, gap):
-    """Arrays of the contacts of grains with each other and with the floor, body n: (c, 2), (c, d), (c, 2), (c,), (c,)."""
-    up = np.zeros(place.shape[1])
-    up[-1] = 1
-    floor = place[:, -1] - radius
-    low = np.flatnonzero(floor < REACH)
+def _contacts(place, radius, pairs):
+    """Arrays of the contacts of grains with each other and with floor and sides, which are body n: (c, 2), (c, d),
+    (c, 2), (c,).
+    """
     way = place[pairs[:, 1]] - place[pairs[:, 0]]
-    normal = np.vstack([way / np.linalg.norm(way, axis=1)[:, None], np.tile(up, (len(low), 1))])
-    body = np.vstack([pairs, np.column_stack([np.full(len(low), len(place)), low])]).astype(np.int32)
-    lever = np.vstack([radius[pairs] * (1, -1), np.column_stack([0 * radius[low], -radius[low]])])
-    length = np.concatenate([radius[pairs].sum(axis=1), 2 * radius[low]])
-    gap = np.concatenate([gap, floor[low]])
-    return body, normal, lever, length, np.where(gap > 0, gap / STEP, 0.0)
+    body, normal, lever = [pairs], [way / np.linalg.norm(way, axis=1)[:, None]], [radius[pairs] * (1, -1)]
+    length = [radius[pairs].sum(axis=1)]
+    low, high = place.min(axis=0), place.max(axis=0)
+    for axis, inward in [(axis, sign) for axis in range(place.shape[1] - 1) for sign in (1, -1)] + [(-1, 1)]:
+        out = place[:, axis] - low[axis] if inward > 0 else high[axis] - place[:, axis]
+        there = np.flatnonzero(out < 0.6 if axis >= 0 else out == 0)  # rows are displaced by half a grain
+        body.append(np.column_stack([np.full(len(there), len(place)), there]))
+        normal.append(np.tile(inward * np.eye(place.shape[1])[axis], (len(there), 1)))
+        lever.append(np.column_stack([0 * radius[there], -radius[there]]))
+        length.append(2 * radius[there])
+    return np.vstack(body).astype(np.int32), np.vstack(normal), np.vstack(lever), np.concatenate(length)
 
 
 def spheres(columns=27, rows=27, seed=1) -> contact.SpaceProblem:
@@ -62,8 +64,8 @@ def spheres(columns=27, rows=27, seed=1) -> contact.SpaceProblem:
     place = np.column_stack(
         [a + 0.5 * ((b + c) % 2), np.sqrt(0.75) * (b + (c % 2) / 3), 0.5 + c * np.sqrt(2 / 3)]
     ).astype(float)
-    radius, pairs, gap = _grains(place, np.random.default_rng(seed))
-    body, normal, lever, length, bias = _contacts(place, radius, pairs, gap)
+    radius, pairs = _grains(place, np.random.default_rng(seed))
+    body, normal, lever, length = _contacts(place, radius, pairs)
     mass = DENSITY * 4 / 3 * np.pi * radius**3
     inverse, turning = np.append(1 / mass, 0), np.append(2.5 / (mass * radius**2), 0)
     free = np.zeros((len(inverse), 6))
@@ -78,7 +80,7 @@ def spheres(columns=27, rows=27, seed=1) -> contact.SpaceProblem:
         body=body,
         normal=normal,
         lever=lever,
-        bias=np.column_stack([bias, np.zeros((count, 6))]),
+        bias=np.zeros((count, 7)),
         adhesion=0 * one,
         friction=FRICTION * one,
         rolling_arm=ROLLING * length,
@@ -94,8 +96,8 @@ def disks(columns=300, rows=100, seed=1) -> contact.ContactProblem:
     """The problem of ``rows`` rows of ``columns`` disks, per metre of thickness [m, kg, s]."""
     b, a = np.mgrid[:rows, :columns].reshape(2, -1)
     place = np.column_stack([a + 0.5 * (b % 2), 0.5 + b * np.sqrt(0.75)]).astype(float)
-    radius, pairs, gap = _grains(place, np.random.default_rng(seed))
-    body, normal, lever, length, bias = _contacts(place, radius, pairs, gap)
+    radius, pairs = _grains(place, np.random.default_rng(seed))
+    body, normal, lever, length = _contacts(place, radius, pairs)
     mass = DENSITY * np.pi * radius**2
     inverse = np.append(1 / mass, 0)
     free = np.zeros((len(inverse), 3))
@@ -109,7 +111,7 @@ def disks(columns=300, rows=100, seed=1) -> contact.ContactProblem:
         body=body,
         normal=normal,
         lever=np.column_stack([0 * one, lever[:, 0], 0 * one, lever[:, 1]]),
-        bias=np.column_stack([bias, 0 * one, 0 * one]),
+        bias=np.zeros((count, 3)),
         adhesion=0 * one,
         friction=FRICTION * one,
         rolling_arm=ROLLING * length,
@@ -136,7 +138,7 @@ def measure(repeats, columns=27, rows=27, flat=(300, 100)) -> dict:
         seconds["plane"][k] = sweeps.sweep_seconds(plane, *sweeps.PATHS["best"])
     per_contact = {name: 1e9 * s / (len(plane.length) if name == "plane" else count) for name, s in seconds.items()}
     cold = contact.solve(space, start="cold", tolerance=COLD_TOLERANCE, max_iterations=5000)
-    borne = cold.impulse[space.body[:, 0] == len(space.inverse_mass) - 1, 2].sum()
+    borne = cold.impulse[space.body[:, 0] == len(space.inverse_mass) - 1, 2].sum()  # by the floor and the sides
     weight = GRAVITY * STEP * (1 / space.inverse_mass[:-1, 0]).sum()
     return {
         "spheres": len(space.inverse_mass) - 1,
