@@ -1,11 +1,11 @@
-"""The packings that sweeps in space are timed on, and what is said of made-up times. No YADE, no clock."""
+"""The packings that sweeps in space are timed on, and what is said of made-up times. No scene, no clock."""
 from types import SimpleNamespace
 
 import numpy as np
 import pytest
 
-from nonsmooth import contact
-from nonsmooth.judges.benchmark import report, spheres
+from yade.nonsmooth import contact
+from yade.nonsmooth.judges.benchmark import report, spheres
 
 
 def distances(problem):
