@@ -52,7 +52,7 @@ def harden(O, step=None, restitution=None, **options):
     a table of what became what and what was dropped.
 
     Materials with springs (FrictMat, CohFrictMat, ViscElMat) become NscdMats with their friction, rolling and twisting
-    resistance, cohesion and restitution (:mod:`.strengths`); the InteractionLoop gets the rigid law and geometry that
+    resistance, cohesion and restitution (:mod:`yade.nonsmooth.hardening.strengths`); the InteractionLoop gets the rigid law and geometry that
     sees open gaps; NewtonIntegrator's damping becomes 0, with a ContactDynamicsEngine before it; time steppers go. All
     that moves in the x-y plane alone (blockedDOFs "zXY") is solved there. Present interactions end, and are found
     again.

@@ -3,19 +3,14 @@
 A soft material says how strong a contact is, and how stiff. Strengths become those of an NscdMat, stiffnesses and
 damping have no counterpart but restitution:
 
-============================  =========================================================================================
-soft                          rigid
-============================  =========================================================================================
-frictionAngle                 frictionAngle, with and without a bond
-density                       density
-ViscElMat.en                  restitution; of a functor's ``en`` too, where that is one number
-ViscElMat.mR                  rolling friction mR/2: a torque mR R N with R half of ℓ
-CohFrictMat.etaRoll, etaTwist rolling and twisting friction eta/2, where the material has momentRotationLaw
-CohFrictMat.normalCohesion    tensile strength of a bond: c/π, a force c R² on the area π/4 ℓ² of two equal spheres; of
-                              disks c R/2, a force c R² on ℓ, with the mean radius
-young, poisson, kn, ks,       dropped
-alphaKr, tc, damping
-============================  =========================================================================================
+* ``frictionAngle`` and ``density`` stay; friction is the same with and without a bond.
+* ``ViscElMat.en`` is the restitution; so is a functor's ``en``, where that is one number.
+* ``ViscElMat.mR``: rolling friction mR/2, since a torque mR R N has half of ℓ for its arm.
+* ``CohFrictMat.etaRoll`` and ``etaTwist``: rolling and twisting friction eta/2, where the material has
+  ``momentRotationLaw``.
+* ``CohFrictMat.normalCohesion`` c: the tensile strength of a bond, c/π: a force c R² on the area π/4 ℓ² of two equal
+  spheres. Of disks it is c R/2, a force c R² on ℓ, with the mean radius.
+* ``young``, ``poisson``, ``kn``, ``ks``, ``alphaKr``, ``tc`` and damping are dropped.
 """
 
 from __future__ import annotations
