@@ -235,7 +235,7 @@ O.engines = [
 ]
 O.dt = 0.5 * PWaveTimeStep()
 def grow():
-    O.bodies.append(sphere((0, 2, 0.5), 0.3))
+    O.bodies.append(sphere((0, 2, 0.5), 0.3, material=O.materials[0]))
 from yade import qt
 qt.View()
 O.run(400, True)
