@@ -53,7 +53,8 @@ endfunction()
 nonsmooth_gate(nonsmooth_gate)
 
 # A translation unit that includes YADE's headers takes 30 s before its own code: two large ones, or one a core where memory holds them (3 GB each).
-file(GLOB engine_sources CONFIGURE_DEPENDS "${CMAKE_SOURCE_DIR}/pkg/dem/*.cpp" "${CMAKE_SOURCE_DIR}/pkg/dem/seam/*.cpp")
+file(GLOB engine_sources CONFIGURE_DEPENDS "${CMAKE_SOURCE_DIR}/pkg/dem/*.cpp" "${CMAKE_SOURCE_DIR}/pkg/dem/seam/*.cpp"
+    "${CMAKE_SOURCE_DIR}/pkg/dem/space/*.cpp")
 list(FILTER engine_sources EXCLUDE REGEX "/LayoutCheck\\.cpp$")
 if(NOT engine_sources)
     file(WRITE "${CMAKE_BINARY_DIR}/no_engines.cpp" "// pkg/dem holds no engines yet\n")

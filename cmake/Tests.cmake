@@ -3,7 +3,7 @@
 find_package(GTest REQUIRED)
 find_package(ZLIB REQUIRED) # reads tests/data
 include(GoogleTest)
-file(GLOB contact_tests CONFIGURE_DEPENDS tests/contact/*.cpp tests/neighbours/*.cpp)
+file(GLOB contact_tests CONFIGURE_DEPENDS tests/contact/*.cpp tests/contact/space/*.cpp tests/neighbours/*.cpp)
 find_package(Eigen3 QUIET NO_MODULE)
 if(NOT TARGET Eigen3::Eigen)
     message(STATUS "Eigen not found (libeigen3-dev): without tests/contact/plane_bits_test.cpp")

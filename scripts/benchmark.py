@@ -3,6 +3,7 @@
 
   scripts/benchmark.py [--out DIR] [--quick] [--threads T] [--disks N] [--section FILE]
   scripts/benchmark.py --scale [N,N,…] [--out DIR] [--threads T] [--section FILE]
+  scripts/benchmark.py --space [--out DIR] [--quick]
 """
 import os, sys
 
@@ -16,10 +17,10 @@ from pathlib import Path
 
 from yade.nonsmooth import commands
 from yade.nonsmooth.commands import arguments
-from yade.nonsmooth.judges.benchmark import report, scale, suite
+from yade.nonsmooth.judges.benchmark import report, scale, spheres, suite
 from yade.nonsmooth.judges.benchmark.scale_figure import cost_by_size
 from yade.nonsmooth.studies.slope import states
-from yade.nonsmooth.system import output_folder
+from yade.nonsmooth.system import machine, output_folder
 from yade.nonsmooth.system.whole_files import write_json
 
 
@@ -45,7 +46,14 @@ def read_arguments():
         metavar="N,…",
         help=f"instead, how cost grows with size: numbers of disks (default: {','.join(map(str, scale.SIZES))}; the last one takes 10 to 20 minutes)",
     )
+    parser.add_argument(
+        "--space",
+        action="store_true",
+        help="instead, sweeps over 20,000 spheres beside those over disks: a minute or two",
+    )
     args = parser.parse_args()
+    if args.space and args.scale:
+        parser.error("--space --scale: give one of them")
     if args.threads < 1:
         parser.error(f"--threads {args.threads}: give a whole number from 1")
     return args
@@ -71,12 +79,21 @@ def measure_scale(args, out):
     print(f"results: {out}/scale.json, {cost_by_size(found['sizes'], out / 'scale.png').name}")
 
 
+def measure_space(args, out):
+    found = spheres.headlines(spheres.measure((suite.QUICK if args.quick else suite.FULL).repeats))
+    write_json(out / "space.json", {**found, "machine": machine.describe(), "quick": args.quick})
+    print(report.space_table(found))
+    print(f"results: {out}/space.json")
+
+
 def main():
     args, began = read_arguments(), time.monotonic()
     out = Path(args.out)
     output_folder.claim(out, "benchmark.py")
     if args.scale:
         return measure_scale(args, out)
+    if args.space:
+        return measure_space(args, out)
     states.section_of(args.section, args.disks)  # refused before anything runs
     with arguments.bar() as progress:
         found = suite.run(

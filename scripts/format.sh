@@ -12,7 +12,7 @@ case "$(clang-format --version 2>/dev/null)" in *"version 14."*) ;; *) missing "
 case "$(black --version 2>/dev/null)" in "black, 23."*) ;; *) missing "black 23" ;; esac
 
 sources() { find "$@" -type f -not -path '*/__pycache__/*' -print0 | sort -z; }
-mapfile -d '' cpp < <(sources pkg tests \( -name '*.hpp' -o -name '*.cpp' \))
+mapfile -d '' cpp < <(sources pkg tests \( -name "*.hpp" -o -name "*.cpp" -o -name "*.tpp" \))
 # not what pages print as it is, nor the tables of mutants
 mapfile -d '' python < <(sources py scripts tests cmake doc/ext doc/conf.py -name '*.py' -not -path 'scripts/examples/*' -not -path 'tests/mutants/mutants/*')
 status=0

@@ -13,44 +13,15 @@
 // normal one. That is every contact between disks, or between a disk and a wall that does not turn.
 #pragma once
 
+#include <contact/kernel_table.hpp>
 #include <contact/problem.hpp>
-#include <contact/residual.hpp>
-#include <cstddef>
-#include <cstdint>
 #include <vector>
 
 namespace nonsmooth::contact {
 
-template <class Number> struct VectorsOf;
-template <> struct VectorsOf<double> {
-	using Four     = double __attribute__((vector_size(32)));
-	using Eight    = double __attribute__((vector_size(64)));
-	using TwoFours = double __attribute__((vector_size(64), aligned(32)));
-};
-template <> struct VectorsOf<float> {
-	using Four     = float __attribute__((vector_size(16)));
-	using Eight    = float __attribute__((vector_size(32)));
-	using TwoFours = float __attribute__((vector_size(32), aligned(16)));
-};
-template <class Number> using Four = typename VectorsOf<Number>::Four;
-
-constexpr std::size_t lanes = 8, halfLanes = 4;
-
-/// One number of each contact of a block.
-template <class Number> struct alignas(lanes * sizeof(Number)) Numbers {
-	Number v[lanes];
-};
-
 /// Change of a body's velocity and its inverse mass, (v_x, v_y, ω, 1/m).
 template <class Number> struct alignas(halfLanes * sizeof(Number)) Motion {
 	Four<Number> v;
-};
-
-/// Whom the contacts of a block couple, whatever its numbers are.
-struct BlockBodies {
-	std::int32_t  i[lanes], j[lanes];
-	unsigned char movesI, movesJ; // bit l: the body of lane l can move
-	bool together; // both halves may be visited at once: all lanes are full, all bodies move, none is in both
 };
 
 /// Numbers that sweeps over normals alone need come first.
@@ -68,72 +39,55 @@ template <class Number> struct alignas(64) Block : BlockBodies {
 	Numbers<Number> beforeT, beforeR; // with beforeN P_{k−1}
 };
 
+struct SolverSettings;
+struct PositionError;
+struct PositionCorrection;
+
+/// What the solver's driver is made of in the plane.
+struct Plane {
+	using Problem                        = contact::Problem;
+	using Contact                        = contact::Contact;
+	using Impulse                        = contact::Impulse;
+	using Inverse                        = contact::Impulse; // 1/W of each row
+	using Twist                          = contact::Twist;
+	using InverseMass                    = contact::InverseMass;
+	template <class Number> using Block  = contact::Block<Number>;
+	template <class Number> using Motion = contact::Motion<Number>;
+	using Settings                       = SolverSettings;
+	using PositionError                  = contact::PositionError;
+	using PositionCorrection             = contact::PositionCorrection;
+};
+
+using BlockNumbers                      = BlockNumbersIn<Plane>;
+using BlockKernels                      = BlockKernelsIn<Plane>;
+template <class Number> using KernelsOf = KernelsIn<Plane, Number>;
+
 /// W⁻¹ p of a lane with the play p, of which law.hpp speaks.
 inline double playOf(const Block<double>& block, std::size_t lane, double play)
 {
 	return block.inverseN.v[lane] * play;
 }
 
-/// Where the numbers of blocks come from.
-struct BlockNumbers {
-	static constexpr std::int32_t none = -1; // an empty lane
-	const Contact*                contacts;
-	const Impulse*                impulses;
-	const InverseMass*            masses;
-	const Twist*                  freeVelocities;
-};
+inline Impulse impulseOf(const Block<double>& k, std::size_t l) { return { k.n.v[l], k.t.v[l], k.r.v[l] }; }
+inline Impulse impulseOf(const Block<float>& k, std::size_t l) { return { k.n.v[l], k.t.v[l], k.r.v[l] }; }
 
-/// What a sweep needs, in doubles or floats. `plays`: W⁻¹ p of the contacts of every block; null where none has play (law.hpp), which costs nothing then.
-template <class Number> struct KernelsOf {
-	/// One Gauss-Seidel visit of every contact, from impulses extrapolated by beta (velocities must be so already).
-	void (*sweep)(
-	        Block<Number>* blocks, const Numbers<Number>* plays, std::size_t count, Motion<Number>* bodies,
-	        Number beta);
-	/// The same, and fetches from memory meanwhile what follows `ahead`: two cache lines for every block.
-	void (*sweepAndFetch)(
-	        Block<Number>* blocks, const Numbers<Number>* plays, std::size_t count, Motion<Number>* bodies,
-	        Number beta, const Block<Number>* ahead);
-	/// before += M⁻¹ Hᵀ (P_k − P_{k−1}), P_{k−1} ← P_k: what is extrapolated next is zero.
-	void (*rest)(Block<Number>* blocks, std::size_t count, Motion<Number>* before);
-	/// Natural-map residual of impulses alone; `inverseLength`: 1/ℓ, 0 in an empty lane.
-	ResidualSums (*measureImpulses)(
-	        const Block<Number>* blocks, const Numbers<Number>* inverseLength, const Numbers<Number>* plays,
-	        std::size_t count, const Motion<Number>* bodies);
-	/// That of speeds, too; `share`, `mean`, `least`: SpeedScale.
-	ResidualSums (*measure)(
-	        const Block<Number>* blocks, const Numbers<Number>* inverseLength, const Numbers<Number>* plays,
-	        std::size_t count, const Motion<Number>* bodies, Number share, Number mean, Number least);
-	/// v ← v + β (v − before), before ← v.
-	void (*extrapolate)(Motion<Number>* bodies, Motion<Number>* before, std::size_t count, Number beta);
-};
-
-struct BlockKernels {
-	const char*       name;
-	KernelsOf<double> inDouble;
-	KernelsOf<float>  inSingle;
-
-	/// Fills in the numbers of contacts, one for each lane of each block in `contactOf`, whose bodies stand there; lanes of none are left alone.
-	void (*fill)(
-	        Block<double>* blocks, Numbers<double>* inverseLength, const std::int32_t* contactOf, std::size_t count,
-	        const BlockNumbers& from);
-	/// v += M⁻¹ Hᵀ P.
-	void (*apply)(const Block<double>* blocks, std::size_t count, Motion<double>* bodies);
-	/// Sweep and apply for normal impulses alone, as if neither friction nor rolling resistance nor impulses of theirs were there: the same bits.
-	void (*sweepNormals)(
-	        Block<double>* blocks, const Numbers<double>* plays, std::size_t count, Motion<double>* bodies,
-	        double beta);
-	void (*applyNormals)(const Block<double>* blocks, std::size_t count, Motion<double>* bodies);
-	/// Blocks of the same contacts with all numbers rounded to floats; what is too large for those becomes the largest whose thresholds are still numbers.
-	void (*round)(
-	        const Block<double>* from, const Numbers<double>* inverseLength, std::size_t count, Block<float>* to,
-	        Numbers<float>* inverseLengthTo);
-	/// Takes impulses P_k back, projected on the thresholds in doubles; those on a threshold of floats are on that of doubles. P_{k−1} is P_k.
-	void (*take)(const Block<float>* from, std::size_t count, Block<double>* to);
-
-	template <class Number> const KernelsOf<Number>& with() const;
-};
-template <> inline const KernelsOf<double>& BlockKernels::with() const { return inDouble; }
-template <> inline const KernelsOf<float>&  BlockKernels::with() const { return inSingle; }
+template <class Number> Twist twistOf(const Motion<Number>& m) { return { m.v[0], m.v[1], m.v[2] }; }
+template <class Number> void  setTwist(Motion<Number>& m, const Twist& v)
+{
+	m.v[0] = static_cast<Number>(v.x);
+	m.v[1] = static_cast<Number>(v.y);
+	m.v[2] = static_cast<Number>(v.w);
+}
+/// Of a body whose velocity no impulse has changed yet.
+template <class Number> void setUnchanged(Motion<Number>& m, const InverseMass& inverse)
+{
+	m.v = Four<Number> { 0, 0, 0, static_cast<Number>(inverse.x) };
+}
+inline void narrow(const Motion<double>& from, Motion<float>& to)
+{
+	for (int k = 0; k < 4; ++k)
+		to.v[k] = static_cast<float>(from.v[k]);
+}
 
 /// All that this processor can run, the fastest first and the portable ones last.
 const std::vector<const BlockKernels*>& availableKernels();

@@ -5,15 +5,16 @@
 #pragma once
 
 #include <contact/block_kernels.hpp>
-#include <contact/problem.hpp>
 #include <contact/problem_survey.hpp>
 #include <contact/sweep_order.hpp>
 #include <vector>
 
 namespace nonsmooth::contact {
 
-template <class Number> struct BlocksOf {
-	std::vector<Block<Number>>   blocks;
+template <class Dimension, class Number> struct BlocksIn {
+	using Block = typename Dimension::template Block<Number>;
+
+	std::vector<Block>           blocks;
 	std::vector<Numbers<Number>> inverseLength; // 1/ℓ; apart, since only the residual needs it
 	std::vector<Numbers<Number>> plays; // W⁻¹ p, see Contact::play; none where no contact of the problem has any
 
@@ -21,20 +22,25 @@ template <class Number> struct BlocksOf {
 	const Numbers<Number>* playsFrom(std::size_t block) const { return plays.empty() ? nullptr : &plays[block]; }
 };
 
-struct ContactBlocks {
-	static constexpr std::int32_t none = BlockNumbers::none; // an empty lane
+template <class Dimension> struct ContactBlocksIn {
+	static constexpr std::int32_t none = emptyLane;
 
-	BlocksOf<double>          inDouble;
-	BlocksOf<float>           inSingle; // rounded from them where sweeps ask for it
-	std::vector<std::int32_t> contactOf; // of every lane of every block, in Problem::contacts
-	std::vector<std::int32_t> others; // contacts outside blocks
-	std::vector<std::size_t>  blockBegin, otherBegin; // of every part of the order; one more than there are parts
-	std::vector<std::int32_t> placeOf; // of the problem's bodies in order.bodies
-	Survey                    survey;
-	SweepOrder                order;
-	std::size_t               partCount() const { return blockBegin.empty() ? 0 : blockBegin.size() - 1; }
+	BlocksIn<Dimension, double> inDouble;
+	BlocksIn<Dimension, float>  inSingle; // rounded from them where sweeps ask for it
+	std::vector<std::int32_t>   contactOf; // of every lane of every block, in Problem::contacts
+	std::vector<std::int32_t>   others; // contacts outside blocks
+	std::vector<std::size_t>    blockBegin, otherBegin; // of every part of the order; one more than there are parts
+	std::vector<std::int32_t>   placeOf; // of the problem's bodies in order.bodies
+	Survey                      survey;
+	SweepOrder                  order;
+	std::size_t                 partCount() const { return blockBegin.empty() ? 0 : blockBegin.size() - 1; }
 
-	template <class Number> BlocksOf<Number>& with();
+	template <class Number> BlocksIn<Dimension, Number>& with()
+	{
+		if constexpr (std::is_same_v<Number, double>) return inDouble;
+		else
+			return inSingle;
+	}
 
 	/// What one part consists of, before its place in the whole is known. On cache lines of its own: threads fill one beside the other.
 	struct alignas(64) Part {
@@ -45,15 +51,20 @@ struct ContactBlocks {
 	bool              kept     = false; // whether it kept what stood there
 };
 
-template <> inline BlocksOf<double>& ContactBlocks::with() { return inDouble; }
-template <> inline BlocksOf<float>&  ContactBlocks::with() { return inSingle; }
+using ContactBlocks = ContactBlocksIn<Plane>;
 
 /// Looks at the problem (problem_survey.hpp, whose refusals it throws) and lays out which contacts lie where in `result`, whose memory is used again. Numbers are
 /// left to fillIn(). Blocks name bodies by their places; an empty lane names the place problem.bodyCount(), which the caller provides and which cannot move.
 /// Without `blocks` all contacts are among the others, in the order of the sweep.
-void layOut(const Problem& problem, int threads, ContactBlocks& result, bool blocks = true);
+template <class Dimension>
+void layOut(
+        const typename Dimension::Problem& problem, int threads, ContactBlocksIn<Dimension>& result,
+        bool blocks = true);
 
 /// Fills the numbers of the contacts into the blocks of one part; impulses come from problem.impulses, projected on their thresholds.
-void fillIn(const Problem& problem, const BlockKernels& kernels, std::size_t part, ContactBlocks& result);
+template <class Dimension>
+void fillIn(
+        const typename Dimension::Problem& problem, const BlockKernelsIn<Dimension>& kernels, std::size_t part,
+        ContactBlocksIn<Dimension>& result);
 
 } // namespace nonsmooth::contact

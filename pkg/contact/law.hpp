@@ -31,10 +31,14 @@ inline double projectNormal(double n, double adhesion) { return std::max(n, -adh
 
 /// The normal impulse that obeys the graph, of one without regard to it, n = P − (U + b)/W, and 1/W: nearest admissible one, and of a bond with play
 /// the proximal point of ψ/W.
+inline double obeyNormal(double n, double inverse, double adhesion, double play)
+{
+	if (!(play > 0)) return projectNormal(n, adhesion);
+	return projectNormal(std::max(n, std::min(n + inverse * play, 0.0)), adhesion);
+}
 inline double obeyNormal(const Contact& c, double n, double inverse)
 {
-	if (!(c.play > 0)) return projectNormal(n, c.adhesion);
-	return projectNormal(std::max(n, std::min(n + inverse * c.play, 0.0)), c.adhesion);
+	return obeyNormal(n, inverse, c.adhesion, c.play);
 }
 
 /// Nearest admissible tangential impulse or rolling impulse for a threshold, eqs (3) to (6).

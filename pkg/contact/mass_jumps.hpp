@@ -28,7 +28,10 @@ struct MassPatch {
 };
 
 /// The ratio of masses that is a jump in a problem.
-inline double jumpOf(const Problem& problem) { return problem.bodyCount() <= fewBodies ? fewsJump : massJump; }
+template <class Problem> double jumpOf(const Problem& problem)
+{
+	return problem.bodyCount() <= fewBodies ? fewsJump : massJump;
+}
 
 /// Whether one of the bodies is that many times as heavy as the other, both of them free to move.
 inline bool isMassJump(const InverseMass& i, const InverseMass& j, double jump)

@@ -4,7 +4,7 @@
 
 namespace nonsmooth::contact {
 
-PatchSolver::PatchSolver(Sweeper<double>& sweeper_)
+PatchSolver::PatchSolver(Sweeper<Plane, double>& sweeper_)
         : sweeper(sweeper_)
         , patches(massPatches(sweeper_.problem))
 {
@@ -25,9 +25,7 @@ void PatchSolver::readContact(std::int32_t index, PatchProblem& to) const
 	Contact        c       = problem.contacts[index];
 	const Impulse  u       = relativeVelocity(c, problem.freeVelocity[c.i], problem.freeVelocity[c.j]);
 	if (!(inverseDelassus(c, problem.inverseMass[c.i], problem.inverseMass[c.j]).n > 0)) return;
-	c.biasN += u.n;
-	c.biasT += u.t;
-	c.biasR += u.r;
+	addBias(c, u);
 	const auto place = [&](std::int32_t b) {
 		return problem.inverseMass[b].isFixed() ? static_cast<std::int32_t>(to.masses.size()) : placeIn[b];
 	};

@@ -10,7 +10,7 @@ namespace nonsmooth::contact {
 class PatchSolver {
 public:
 	/// For a problem that is laid out in the sweeper.
-	explicit PatchSolver(Sweeper<double>& sweeper);
+	explicit PatchSolver(Sweeper<Plane, double>& sweeper);
 
 	bool any() const { return !patches.empty(); }
 	/// Solves the patches that miss more of their speed than a tenth of the tolerance, but none that would take more visits than `most`; returns whether anything has changed. The residual is then
@@ -25,8 +25,8 @@ private:
 	void         write(const MassPatch& patch, const PatchProblem& solved);
 	void         readContact(std::int32_t index, PatchProblem& to) const;
 
-	Sweeper<double>&       sweeper;
-	std::vector<MassPatch> patches;
+	Sweeper<Plane, double>& sweeper;
+	std::vector<MassPatch>  patches;
 	std::vector<std::int32_t>
 	        laneOf; // of contacts, counted over all blocks; in place of those outside the complement of their row
 	mutable std::vector<std::int32_t> placeIn; // of bodies in the patch at hand

@@ -90,4 +90,25 @@ applyImpulse(const Contact& c, const Impulse& p, const InverseMass& mi, const In
 	vj.w += mj.w * (c.leverNj * p.n + c.leverTj * p.t + p.r);
 }
 
+/// What impulses become that are extrapolated by beta.
+inline Impulse extrapolated(const Impulse& now, const Impulse& before, double beta)
+{
+	return { now.n + beta * (now.n - before.n), now.t + beta * (now.t - before.t),
+		 now.r + beta * (now.r - before.r) };
+}
+
+inline Impulse difference(const Impulse& a, const Impulse& b) { return { a.n - b.n, a.t - b.t, a.r - b.r }; }
+
+/// Adds a relative velocity to the biases of a contact.
+inline void addBias(Contact& c, const Impulse& u)
+{
+	c.biasN += u.n;
+	c.biasT += u.t;
+	c.biasR += u.r;
+}
+
+inline Twist  difference(const Twist& a, const Twist& b) { return { a.x - b.x, a.y - b.y, a.w - b.w }; }
+inline Twist  sum(const Twist& a, const Twist& b) { return { a.x + b.x, a.y + b.y, a.w + b.w }; }
+inline double squaredSpeed(const Twist& v) { return v.x * v.x + v.y * v.y; }
+
 } // namespace nonsmooth::contact

@@ -1,19 +1,9 @@
 #include <contact/problem_check.hpp>
 #include <contact/solver.hpp>
-#include <sstream>
-#include <stdexcept>
 #include <string>
 
 namespace nonsmooth::contact {
 namespace {
-
-	template <class... Parts> [[noreturn]] void refuse(const Parts&... parts)
-	{
-		std::ostringstream text;
-		text.precision(6);
-		(text << ... << parts);
-		throw std::invalid_argument(text.str());
-	}
 
 	template <class Number> void checkRange(const char* name, Number value, Number least, Number most)
 	{
@@ -30,12 +20,6 @@ namespace {
 		return given == first ? a : b;
 	}
 
-	void checkSize(const char* name, std::size_t found, std::size_t wanted, const char* ofWhat)
-	{
-		if (found != wanted)
-			refuse("contact problem: ", name, " has ", found, " entries for ", wanted, " ", ofWhat);
-	}
-
 } // namespace
 
 Method methodOf(const char* name)
@@ -45,7 +29,7 @@ Method methodOf(const char* name)
 
 Precision precisionOf(const char* name) { return named(name, "mixed", "double", Precision::Mixed, Precision::Double); }
 
-void check(const SolverSettings& s)
+void check(const SweepSettings& s)
 {
 	if (!(s.tolerance > 0) || !finite(s.tolerance))
 		refuse("tolerance = ", s.tolerance, ": it must be positive and finite");
@@ -54,11 +38,11 @@ void check(const SolverSettings& s)
 	checkRange("threads", s.threads, 1, mostThreads);
 }
 
-void checkSizes(const Problem& problem)
+void refuseBodies(const std::string& it, std::int32_t i, std::int32_t j, std::int32_t bodies)
 {
-	checkSize("freeVelocity", problem.freeVelocity.size(), problem.bodyCount(), "bodies");
-	if (!problem.positions.empty()) checkSize("positions", problem.positions.size(), problem.bodyCount(), "bodies");
-	checkSize("impulses", problem.impulses.size(), problem.contactCount(), "contacts");
+	if (i < 0 || j < 0 || i >= bodies || j >= bodies)
+		refuse(it, " names a body that is not there: there are ", bodies, ", counted from 0");
+	if (i == j) refuse(it, " is one of a body with itself: it must name two");
 }
 
 void refuseBody(const Problem& problem, std::size_t b)
@@ -85,9 +69,7 @@ void refuseContact(const Problem& problem, std::size_t k)
 	const auto        bodies = static_cast<std::int32_t>(problem.bodyCount());
 	const std::string it     = "contact problem: contact " + std::to_string(k) + " between bodies "
 	        + std::to_string(c.i) + " and " + std::to_string(c.j);
-	if (c.i < 0 || c.j < 0 || c.i >= bodies || c.j >= bodies)
-		refuse(it, " names a body that is not there: there are ", bodies, ", counted from 0");
-	if (c.i == c.j) refuse(it, " is one of a body with itself: it must name two");
+	refuseBodies(it, c.i, c.j, bodies);
 	const struct {
 		const char* name;
 		double      value;

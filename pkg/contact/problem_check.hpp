@@ -4,10 +4,12 @@
 
 #include <cmath>
 #include <contact/problem.hpp>
+#include <sstream>
+#include <stdexcept>
 
 namespace nonsmooth::contact {
 
-struct SolverSettings;
+struct SweepSettings;
 
 constexpr int    mostThreads    = 1024;
 constexpr int    mostCheckEvery = 1'000'000; // sweeps
@@ -35,10 +37,31 @@ inline bool usable(const Contact& c, const Impulse& p, std::int32_t bodies)
 }
 
 /// Throws std::invalid_argument naming the setting, its value and what would do.
-void check(const SolverSettings& settings);
+void check(const SweepSettings& settings);
 
-/// Throws std::invalid_argument where arrays of one kind have not one size.
-void checkSizes(const Problem& problem);
+/// Throws std::invalid_argument with the parts put together, numbers with six digits.
+template <class... Parts> [[noreturn]] void refuse(const Parts&... parts)
+{
+	std::ostringstream text;
+	text.precision(6);
+	(text << ... << parts);
+	throw std::invalid_argument(text.str());
+}
+
+/// Throws std::invalid_argument where arrays of one kind have not one size; for problems of any dimension.
+template <class Problem> void checkSizes(const Problem& problem)
+{
+	const auto checkSize = [](const char* name, std::size_t found, std::size_t wanted, const char* ofWhat) {
+		if (found != wanted)
+			refuse("contact problem: ", name, " has ", found, " entries for ", wanted, " ", ofWhat);
+	};
+	checkSize("freeVelocity", problem.freeVelocity.size(), problem.bodyCount(), "bodies");
+	if (!problem.positions.empty()) checkSize("positions", problem.positions.size(), problem.bodyCount(), "bodies");
+	checkSize("impulses", problem.impulses.size(), problem.contactCount(), "contacts");
+}
+
+/// Throws std::invalid_argument naming the first of `bodies` that the contact `it` names and that is not there, or the one that it names twice.
+void refuseBodies(const std::string& it, std::int32_t i, std::int32_t j, std::int32_t bodies);
 
 /// Throw std::invalid_argument naming what cannot be used, and why.
 [[noreturn]] void refuseBody(const Problem& problem, std::size_t body);

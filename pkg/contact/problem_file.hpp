@@ -1,7 +1,7 @@
 // A contact problem as an HDF5 file: what one step had to solve, what it started from and what it found.
 //
 // Groups and datasets (doubles, or 32-bit integers for `body`), b bodies and c contacts, units as in problem.hpp:
-//     /                        attributes `format` (1) and `time_step` [s]
+//     /                        attributes `format` (2), `dimension` (2; space/problem_file.hpp has 3) and `time_step` [s]
 //     /bodies/inverse_mass     b×3   1/m_x, 1/m_y, 1/I; 0 where blocked      /bodies/free_velocity  b×3
 //     /bodies/position         b×2   may be missing                          /bodies/velocity       b×3   solution
 //     /contacts/body           c×2   i, j                                    /contacts/normal       c×2   from i to j
@@ -9,6 +9,7 @@
 //     /contacts/adhesion, /contacts/friction, /contacts/rolling_arm, /contacts/length                   c each
 //     /contacts/play           c     p [m/s]; missing where no bond closes freely
 //     /contacts/warm_start     c×3   impulses the solve began with           /contacts/impulse      c×3   solution
+// A file of format 1, which has no attribute `dimension`, is read as well.
 #pragma once
 
 #include <contact/problem.hpp>
@@ -25,6 +26,9 @@ struct RecordedProblem {
 
 /// Writes beside and renames (whole_file.hpp), so that no half-written file is ever there. Throws std::runtime_error naming the file and what helps.
 void write(const std::string& path, const RecordedProblem& recorded);
+
+/// 2 or 3: of the problem in a file. Throws std::runtime_error naming the file, where it holds none.
+int dimensionOf(const std::string& path);
 
 /// Throws std::runtime_error naming the file and what is missing or wrong in it: shapes, kinds of numbers, bodies that are not there, sizes that the file
 /// cannot hold. Values are the solver's to refuse (problem_check.hpp).

@@ -12,9 +12,6 @@ std::optional<Scaling> scalingOfLostSquares(const Survey& survey)
 	return Scaling { -std::ilogb(speed), std::ilogb(lightness) };
 }
 
-/// What a strength becomes that is out of all proportion to the impulses; times a friction it is still a number.
-constexpr double unreached = 1e290;
-
 Impulse scaled(const Impulse& p, const Scaling& s)
 {
 	const int by = s.speed + s.mass;
@@ -40,7 +37,7 @@ Problem scaled(const Problem& problem, const Scaling& s)
 		c.biasT    = std::ldexp(c.biasT, s.speed);
 		c.biasR    = std::ldexp(c.biasR, s.speed);
 		c.play     = std::ldexp(c.play, s.speed);
-		c.adhesion = std::min(std::ldexp(c.adhesion, s.speed + s.mass), unreached);
+		c.adhesion = std::min(std::ldexp(c.adhesion, s.speed + s.mass), unreachedStrength);
 	}
 	return p;
 }

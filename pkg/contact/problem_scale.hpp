@@ -19,6 +19,9 @@ inline Scaling inverse(const Scaling& s) { return { -s.speed, -s.mass }; }
 /// Units in which the largest free velocity and mass are near one, if their squares are lost in the present ones; none where nothing moves.
 std::optional<Scaling> scalingOfLostSquares(const Survey& survey);
 
+/// What a strength becomes that is out of all proportion to the impulses; times a friction it is still a number.
+constexpr double unreachedStrength = 1e290;
+
 /// The problem in other units, with the impulses that it begins with.
 Problem scaled(const Problem& problem, const Scaling& scaling);
 

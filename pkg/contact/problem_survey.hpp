@@ -19,6 +19,20 @@ struct Span {
 	double length() const { return high - low; }
 };
 
+/// Where bodies are, along as many axes as the dimension has: a look at arrays that stay where they are.
+struct Coordinates {
+	const double* first = nullptr; // of the first body; each has its numbers side by side
+	std::size_t   count = 0; // bodies; none where their places are not known
+	int           axes  = 2;
+
+	double operator()(std::size_t body, int axis) const { return first[body * axes + axis]; }
+};
+inline Coordinates coordinatesOf(const Problem& problem)
+{
+	static_assert(sizeof(Point) == 2 * sizeof(double), "two numbers side by side");
+	return { problem.positions.empty() ? nullptr : &problem.positions.front().x, problem.positions.size(), 2 };
+}
+
 struct Survey {
 	/// What the short formulas of the blocks ask of a body.
 	enum BodyTrait : std::uint8_t { turns = 1, plain = 2, moves = 4 };
@@ -26,10 +40,10 @@ struct Survey {
 	std::vector<std::uint8_t> traits; // of bodies
 	std::vector<std::uint8_t> simple; // whether a contact fits into blocks
 	std::vector<MovablePair>  pairs; // of the contacts
-	Span                      extents[2]; // in x and y, from the lowest to the highest body that can move
+	Span                      extents[3]; // along the axes, from the lowest to the highest body that can move
 	double                    fastest    = 0; // largest component of a free velocity [m/s]
 	double                    lightness  = HUGE_VAL; // least inverse mass of what can move in x or y [1/kg]
-	double                    longest[2] = { 0, 0 }; // in x and y, of contacts between bodies that can move
+	double                    longest[3] = { 0, 0, 0 }; // along the axes, of contacts between bodies that can move
 	bool                      uneven
 	        = false; // whether one body has massJump times the mass of another (mass_jumps.hpp); among many, plates that go along one line do not count
 	bool jumps     = false; // whether masses jump somewhere (mass_jumps.hpp)

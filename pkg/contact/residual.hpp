@@ -73,6 +73,11 @@ double missedSpeed(const Contact& c, const Impulse& defect, const InverseMass& m
 struct SpeedShare {
 	double all, point; // ϑ² and ϑ_p²
 };
+/// Whether a contact acts, or should.
+inline bool acts(const Contact& c, const Impulse& p, const Impulse& defect)
+{
+	return p.n + c.adhesion > 0 || defect.n != 0;
+}
 /// That of a contact with the impulses `p` that misses `defect`; `vi`, `vj`: what impulses have changed of its bodies' velocities.
 SpeedShare speedShare(
         const Contact& c, const Impulse& p, const Impulse& defect, const InverseMass& mi, const InverseMass& mj,
@@ -83,9 +88,9 @@ struct ResidualSums {
 	double square = 0, scale = 0, largest = 0; // of squared defects and impulses, and the largest defect
 	double speed = 0, largestSpeed = 0, active = 0; // of ϑ², the largest ϑ_p², and contacts that act or should
 
-	/// Add a contact.
-	void     addImpulses(const Contact& c, const Impulse& p, const Impulse& defect);
-	void     addSpeeds(const Contact& c, const Impulse& p, const Impulse& defect, const SpeedShare& share);
+	/// Add a contact: squares of what it misses and of its impulses, and its shares of speed if it acts or should.
+	void     addSquares(double defect, double impulse);
+	void     addShare(const SpeedShare& share, bool acts);
 	void     add(const ResidualSums& other);
 	Residual residual(std::size_t contacts) const;
 };

@@ -45,17 +45,21 @@ Precision precisionOf(const char* name);
 /// one part in ten thousand.
 constexpr double finestInSingle = 1e-5;
 
-struct SolverSettings {
-	Method              method        = Method::Accelerated;
-	double              tolerance     = 1e-4; // on Residual::relative(), or on the figures of another stopping test
-	int                 maxIterations = 1000;
-	int                 checkEvery    = 10; // sweeps between two residuals
-	int                 threads       = 1;
-	StoppingTest        stopping      = StoppingTest::NaturalMap;
-	Precision           precision     = Precision::Mixed;
-	const BlockKernels* kernels       = nullptr; // of availableKernels(); null: the first; the bits are the same
-	bool                reference
+/// What is asked of a solve in any dimension.
+struct SweepSettings {
+	Method       method        = Method::Accelerated;
+	double       tolerance     = 1e-4; // on Residual::relative(), or on the figures of another stopping test
+	int          maxIterations = 1000;
+	int          checkEvery    = 10; // sweeps between two residuals
+	int          threads       = 1;
+	StoppingTest stopping      = StoppingTest::NaturalMap;
+	Precision    precision     = Precision::Mixed;
+	bool         reference
 	        = false; // contact after contact as law.hpp has it, none in blocks: what blocks are measured against
+};
+
+struct SolverSettings : SweepSettings {
+	const BlockKernels* kernels = nullptr; // of availableKernels(); null: the first; the bits are the same
 };
 
 struct SolverStatistics {
@@ -73,20 +77,24 @@ struct SolverStatistics {
 	VelocityChanges changes; // the same, in the figures of LMGC90's tests; only where one of them was asked for
 };
 
-template <class Number> struct BodiesOf {
-	std::vector<Motion<Number>> now, before; // by place; the last one is nobody
+template <class Dimension, class Number> struct BodiesIn {
+	std::vector<typename Dimension::template Motion<Number>> now, before; // by place; the last one is nobody
 };
 
 /// Memory that one solve leaves to the next, and the layout in it, which is kept where it fits; what it holds changes no bit.
-struct Workspace {
-	ContactBlocks    laidOut;
-	BodiesOf<double> inDouble;
-	BodiesOf<float>  inSingle;
+template <class Dimension> struct WorkspaceIn {
+	ContactBlocksIn<Dimension>  laidOut;
+	BodiesIn<Dimension, double> inDouble;
+	BodiesIn<Dimension, float>  inSingle;
 
-	template <class Number> BodiesOf<Number>& with();
+	template <class Number> BodiesIn<Dimension, Number>& with()
+	{
+		if constexpr (std::is_same_v<Number, double>) return inDouble;
+		else
+			return inSingle;
+	}
 };
-template <> inline BodiesOf<double>& Workspace::with() { return inDouble; }
-template <> inline BodiesOf<float>&  Workspace::with() { return inSingle; }
+using Workspace = WorkspaceIn<Plane>;
 
 /// What one contact asks of the positions at the end of a step [m]: its bodies draw apart by −error where that is negative, and by no more than they
 /// must; they may draw together by `error` where it is positive. With `held` they do so in any case, but for `play`.

@@ -49,23 +49,29 @@ double VelocityChanges::figure(StoppingTest test) const
 	return std::max(quad, maxm / maxmToQuad);
 }
 
-void ChangeSums::add(
-        const Contact& c, const Impulse& p, const InverseMass& mi, const InverseMass& mj, Twist vi, Twist vj)
+VisitChange
+changeOf(const Contact& c, const Impulse& p, const InverseMass& mi, const InverseMass& mj, Twist vi, Twist vj)
 {
 	const Impulse inverse = inverseDelassus(c, mi, mj);
 	const Impulse next    = visit(c, p, inverse, mi, mj, vi, vj);
 	const Impulse d       = velocityOf(c, { p.n - next.n, p.t - next.t, p.r - next.r }, inverse);
 	const Impulse r       = inImpulses(c, { 0.5 * (p.n + next.n), 0.5 * (p.t + next.t), 0.5 * (p.r + next.r) });
 	const Impulse before = velocityOf(c, p, inverse), after = velocityOf(c, next, inverse);
-	const double  dd = dot(d, d), rr = dot(r, r);
-	square += dd;
-	largest = std::max(largest, dd);
-	work += dd * rr;
-	largestWork = std::max(largestWork, dd * rr);
-	drift += dot(r, d);
-	velocity += 0.5 * (dot(before, before) + dot(after, after));
-	energy += 0.5 * (dot(before, inImpulses(c, p)) + dot(after, inImpulses(c, next)));
-	active += !(rr == 0); // what is not a number counts, and shows
+	return { dot(d, d), dot(r, r), dot(r, d), 0.5 * (dot(before, before) + dot(after, after)),
+		 0.5 * (dot(before, inImpulses(c, p)) + dot(after, inImpulses(c, next))) };
+}
+
+void ChangeSums::add(const VisitChange& contact)
+{
+	const double all = contact.change * contact.impulse;
+	square += contact.change;
+	largest = std::max(largest, contact.change);
+	work += all;
+	largestWork = std::max(largestWork, all);
+	drift += contact.drift;
+	velocity += contact.velocity;
+	energy += contact.energy;
+	active += !(contact.impulse == 0); // what is not a number counts, and shows
 }
 
 void ChangeSums::add(const ChangeSums& other)
@@ -94,7 +100,8 @@ VelocityChanges velocityChanges(const Problem& problem)
 	ChangeSums sums;
 	for (std::size_t k = 0; k < problem.contactCount(); ++k) {
 		const Contact& c = problem.contacts[k];
-		sums.add(c, problem.impulses[k], problem.inverseMass[c.i], problem.inverseMass[c.j], v[c.i], v[c.j]);
+		sums.add(changeOf(
+		        c, problem.impulses[k], problem.inverseMass[c.i], problem.inverseMass[c.j], v[c.i], v[c.j]));
 	}
 	return sums.changes();
 }

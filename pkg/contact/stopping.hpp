@@ -39,14 +39,23 @@ struct VelocityChanges {
 	double figure(StoppingTest test) const;
 };
 
+/// What one more visit would change of a contact.
+struct VisitChange {
+	double change = 0, impulse = 0; // D² and R²
+	double drift = 0, velocity = 0, energy = 0; // R·D, (|W P|² + |W P'|²)/2 and e
+};
+
+/// That of a contact with the impulses `p` and the velocities of its bodies.
+VisitChange
+changeOf(const Contact& c, const Impulse& p, const InverseMass& mi, const InverseMass& mj, Twist vi, Twist vj);
+
 /// Sums over contacts that the figures are made of; parts can be added in any fixed order.
 struct ChangeSums {
 	double square = 0, largest = 0, work = 0, largestWork = 0, drift = 0, velocity = 0, energy = 0;
 	long   active = 0;
 
-	/// Adds a contact with the impulses `p` and the velocities of its bodies.
-	void add(const Contact& c, const Impulse& p, const InverseMass& mi, const InverseMass& mj, Twist vi, Twist vj);
-	void add(const ChangeSums& other);
+	void            add(const VisitChange& contact);
+	void            add(const ChangeSums& other);
 	VelocityChanges changes() const;
 };
 

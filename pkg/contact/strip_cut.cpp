@@ -14,27 +14,26 @@ namespace {
 	constexpr std::size_t sampleCount    = 1024;
 	constexpr double      rounding       = 1.000001;
 
-	double coordinate(const Point& x, int axis) { return axis == 0 ? x.x : x.y; }
-
 	/// The way along which strips follow one another: an axis, upwards or, with the sign −1, downwards.
 	struct Way {
 		int    axis;
 		double sign = 1;
 
-		double operator()(const Point& x) const { return sign * coordinate(x, axis); }
+		double at(const Coordinates& places, std::int32_t b) const { return sign * places(b, axis); }
 		Span   operator()(const Span& s) const { return sign > 0 ? s : Span { -s.high, -s.low }; }
 	};
 
-	/// Along x in the direction in which the numbers of bodies rise, so that a mirrored scene has the mirrored strips.
-	Way alongX(const Problem& problem, const Survey& survey)
+	/// Along an axis in the direction in which the numbers of bodies rise, so that a mirrored scene has the mirrored strips; in the plane upwards along y.
+	Way along(const Coordinates& places, const Survey& survey, int axis)
 	{
+		if (axis > 0 && places.axes == 2) return { axis };
 		const auto moves = [](std::uint8_t trait) { return (trait & Survey::moves) != 0; };
 		const auto first = std::find_if(survey.traits.begin(), survey.traits.end(), moves);
 		const auto last  = std::find_if(survey.traits.rbegin(), survey.traits.rend(), moves);
-		if (first == survey.traits.end()) return { 0 };
-		const double from = problem.positions[first - survey.traits.begin()].x,
-		             to   = problem.positions[survey.traits.rend() - last - 1].x;
-		return { 0, to < from ? -1.0 : 1.0 };
+		if (first == survey.traits.end()) return { axis };
+		const double from = places(first - survey.traits.begin(), axis),
+		             to   = places(survey.traits.rend() - last - 1, axis);
+		return { axis, to < from ? -1.0 : 1.0 };
 	}
 
 	/// Where contacts are, but for one in 128 at either end and what lies far beyond.
@@ -52,8 +51,8 @@ namespace {
 
 	/// Lower ends of some contacts. Places of the samples follow the golden section, so that no regular order of contacts falls in with them.
 	void
-	sample(const Problem& problem, const std::vector<MovablePair>& pairs, const Way (&ways)[2],
-	       std::vector<double> (&samples)[2])
+	sample(const Coordinates& places, const std::vector<MovablePair>& pairs, const Way (&ways)[3],
+	       std::vector<double> (&samples)[3])
 	{
 		for (auto& s : samples)
 			s.clear();
@@ -63,26 +62,25 @@ namespace {
 			const MovablePair pair = pairs[part * pairs.size() >> 32];
 			const auto        low  = [&](const Way& way) {
                                 const auto at = [&](std::int32_t b) {
-                                        return MovablePair::moves(b) ? way(problem.positions[b]) : HUGE_VAL;
+                                        return MovablePair::moves(b) ? way.at(places, b) : HUGE_VAL;
                                 };
                                 return std::min(at(pair.i), at(pair.j));
 			};
 			if (!MovablePair::moves(pair.i) && !MovablePair::moves(pair.j)) continue;
-			for (int axis : { 0, 1 })
+			for (int axis = 0; axis < places.axes; ++axis)
 				samples[axis].push_back(low(ways[axis]));
 		}
 	}
 
 	/// Of a contact along an axis; 0 where only one of its bodies moves.
-	double lengthOf(const Problem& problem, const MovablePair& pair, int axis)
+	double lengthOf(const Coordinates& places, const MovablePair& pair, int axis)
 	{
 		if (!MovablePair::moves(pair.i) || !MovablePair::moves(pair.j)) return 0;
-		return std::abs(
-		        coordinate(problem.positions[pair.i], axis) - coordinate(problem.positions[pair.j], axis));
+		return std::abs(places(pair.i, axis) - places(pair.j, axis));
 	}
 
 	/// Length of the longest contact that strips have to be as wide as.
-	double reachOf(const Problem& problem, const Survey& survey, int threads, int axis, double extent)
+	double reachOf(const Coordinates& places, const Survey& survey, int threads, int axis, double extent)
 	{
 		const auto&  pairs   = survey.pairs;
 		const long   count   = static_cast<long>(pairs.size());
@@ -98,7 +96,7 @@ namespace {
 		const std::size_t  octaves  = half.size();
 #pragma omp          parallel for schedule(static) num_threads(threads) reduction(+ : inOctave[:octaves + 1])
                 for (long k = 0; k < count; ++k) {
-			         const double length = lengthOf(problem, pairs[k], axis);
+			         const double length = lengthOf(places, pairs[k], axis);
 			         std::size_t  o      = 0;
 			         while (o < octaves && !(length > half[o]))
                                 ++o;
@@ -173,36 +171,43 @@ namespace {
 	}
 
 	/// Puts bodies into bins and bins into strips. Returns whether strips stayed as they were, as far as that is known without counting.
-	bool divide(const Problem& problem, const Survey& survey, int threads, StripCut& result)
+	bool divide(const Coordinates& places, const Survey& survey, int threads, StripCut& result)
 	{
 		auto&       scratch    = result.scratch;
 		const auto& pairs      = survey.pairs;
 		const auto  binsBefore = scratch.bins, widthBefore = scratch.width;
 		scratch.bins = scratch.width = 0;
-		if (problem.positions.size() != problem.bodyCount() || pairs.size() < 2 * contactsAStrip) return false;
-		const Way ways[2] = { alongX(problem, survey), { 1 } };
-		sample(problem, pairs, ways, scratch.samples);
-		const Span   spans[2] = { mostOf(scratch.samples[0], ways[0](survey.extents[0])),
-			                  mostOf(scratch.samples[1], survey.extents[1]) };
-		const int    axis     = spans[0].length() >= spans[1].length() ? 0 : 1;
-		const Span   span     = spans[axis];
-		const Way    way      = ways[axis];
-		const double extent   = span.length();
+		if (places.count != survey.traits.size() || pairs.size() < 2 * contactsAStrip) return false;
+		Way ways[3] = { { 0 }, { 1 }, { 2 } };
+		for (int a = 0; a < places.axes; ++a)
+			ways[a] = along(places, survey, a);
+		sample(places, pairs, ways, scratch.samples);
+		int  axis = 0;
+		Span span = mostOf(scratch.samples[0], ways[0](survey.extents[0]));
+		for (int a = 1; a < places.axes; ++a)
+			if (const Span other = mostOf(scratch.samples[a], ways[a](survey.extents[a]));
+			    other.length() > span.length()) {
+				axis = a;
+				span = other;
+			}
+		const Way    way    = ways[axis];
+		const double extent = span.length();
 		if (!(extent > 0) || !std::isfinite(extent)) return false;
 		const std::size_t strips = pairs.size() / contactsAStrip;
 		const auto        bins   = static_cast<std::int32_t>(strips * binsAStrip);
-		const double      scale = bins / extent, reach = reachOf(problem, survey, threads, axis, extent);
+		const double      scale = bins / extent, reach = reachOf(places, survey, threads, axis, extent);
 		scratch.bins  = bins;
 		scratch.width = static_cast<std::int32_t>(
 		        std::min<double>(bins, std::max(1.0, std::ceil(reach * rounding * scale))));
-		const long bodies = static_cast<long>(problem.bodyCount());
-		bool       moved  = scratch.binOfBody.size() != problem.bodyCount();
-		scratch.binOfBody.resize(problem.bodyCount());
+		const long bodies = static_cast<long>(places.count);
+		bool       moved  = scratch.binOfBody.size() != places.count;
+		scratch.binOfBody.resize(places.count);
 #pragma omp parallel for schedule(static) num_threads(threads) reduction(|| : moved)
 		for (long b = 0; b < bodies; ++b) {
-			const double at  = std::clamp((way(problem.positions[b]) - span.low) * scale, 0.0, bins - 1.0);
-			const auto   bin = survey.traits[b] & Survey::moves ? static_cast<std::int32_t>(at) : -1;
-			moved            = moved || bin != scratch.binOfBody[b];
+			const double at = std::clamp(
+			        (way.at(places, static_cast<std::int32_t>(b)) - span.low) * scale, 0.0, bins - 1.0);
+			const auto bin       = survey.traits[b] & Survey::moves ? static_cast<std::int32_t>(at) : -1;
+			moved                = moved || bin != scratch.binOfBody[b];
 			scratch.binOfBody[b] = bin;
 		}
 		if (survey.pairsKept && !moved && bins == binsBefore && scratch.width == widthBefore) return true;
@@ -213,14 +218,14 @@ namespace {
 
 } // namespace
 
-bool cutIntoStrips(const Problem& problem, const Survey& survey, int threads, StripCut& result)
+bool cutIntoStrips(const Coordinates& places, const Survey& survey, int threads, StripCut& result)
 {
 	const auto before = result.count;
-	if (divide(problem, survey, threads, result)) return true;
+	if (divide(places, survey, threads, result)) return true;
 	if (result.scratch.bins == 0) result.count = 1;
-	bool moved = result.count != before || result.stripOfBody.size() != problem.bodyCount();
-	result.stripOfBody.resize(problem.bodyCount());
-	const long bodies = static_cast<long>(problem.bodyCount());
+	const long bodies = static_cast<long>(survey.traits.size());
+	bool       moved  = result.count != before || result.stripOfBody.size() != survey.traits.size();
+	result.stripOfBody.resize(survey.traits.size());
 #pragma omp parallel for schedule(static) num_threads(threads) reduction(|| : moved)
 	for (long b = 0; b < bodies; ++b) {
 		const auto strip      = !(survey.traits[b] & Survey::moves)

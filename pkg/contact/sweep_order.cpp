@@ -106,16 +106,16 @@ void colour(
 	}
 }
 
-bool arrange(const Problem& problem, const Survey& survey, int threads, SweepOrder& result)
+bool arrange(const Coordinates& places, const Survey& survey, int threads, SweepOrder& result)
 {
 	auto&      scratch    = result.scratch;
-	const bool sameStrips = cutIntoStrips(problem, survey, threads, scratch.cut);
+	const bool sameStrips = cutIntoStrips(places, survey, threads, scratch.cut);
 	if (survey.pairsKept && sameStrips && !result.partBegin.empty()) return true;
 		// each of the two goes from one contact or body to the next, but they do not need each other
 #pragma omp parallel sections num_threads(threads)
 	{
 #pragma omp section
-		if (!survey.pairsKept) colour(survey.pairs, problem.bodyCount(), scratch.colours, scratch.used);
+		if (!survey.pairsKept) colour(survey.pairs, survey.traits.size(), scratch.colours, scratch.used);
 #pragma omp section
 		sortBodies(result);
 	}

@@ -7,7 +7,6 @@
 // finds its own side by side.
 #pragma once
 
-#include <contact/problem.hpp>
 #include <contact/strip_cut.hpp>
 
 namespace nonsmooth::contact {
@@ -41,8 +40,8 @@ void colour(
         const std::vector<MovablePair>& pairs, std::size_t bodyCount, std::vector<std::uint8_t>& colours,
         std::vector<std::uint64_t>& used);
 
-/// Without problem.positions all contacts make one strip. The result depends neither on `threads` nor on what `result` held. Returns whether it is what it held
+/// Without places all contacts make one strip. The result depends neither on `threads` nor on what `result` held. Returns whether it is what it held
 /// already: `survey` says which pairs are kept, and where strips are too, so is the order.
-bool arrange(const Problem& problem, const Survey& survey, int threads, SweepOrder& result);
+bool arrange(const Coordinates& places, const Survey& survey, int threads, SweepOrder& result);
 
 } // namespace nonsmooth::contact

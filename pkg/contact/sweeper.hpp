@@ -12,11 +12,12 @@
 namespace nonsmooth::contact {
 
 /// A contact outside the blocks, swept row by row; with its data beside it, so that memory is gone through in the order of the sweep.
-struct Row {
-	Contact contact; // names bodies by their places, and has in its biases what the free velocities make of them
-	InverseMass mi, mj;
-	Impulse     p, before; // P_k, P_{k−1}
-	Impulse     inverse; // 1/W_nn, 1/W_tt, 1/W_rr
+template <class Dimension> struct RowIn {
+	typename Dimension::Contact
+	        contact; // names bodies by their places, and has in its biases what the free velocities make of them
+	typename Dimension::InverseMass mi, mj;
+	typename Dimension::Impulse     p, before; // P_k, P_{k−1}
+	typename Dimension::Inverse     inverse; // 1/W of each row
 };
 
 /// What is to be reached, and what that may cost.
@@ -26,7 +27,7 @@ struct Goal {
 };
 
 /// Few contacts are not worth waking threads for.
-inline int threadsFor(const Problem& problem, const SolverSettings& settings)
+template <class Problem> int threadsFor(const Problem& problem, const SweepSettings& settings)
 {
 	return problem.contactCount() < 1000 ? 1 : settings.threads;
 }
@@ -36,10 +37,19 @@ inline const BlockKernels& kernelsFor(const SolverSettings& settings)
 	return settings.kernels ? *settings.kernels : *availableKernels().front();
 }
 
-template <class Number> class Sweeper {
+template <class Dimension, class Number> class Sweeper {
 public:
+	using Problem  = typename Dimension::Problem;
+	using Contact  = typename Dimension::Contact;
+	using Impulse  = typename Dimension::Impulse;
+	using Twist    = typename Dimension::Twist;
+	using Settings = typename Dimension::Settings;
+	using Block    = typename Dimension::template Block<Number>;
+	using Motion   = typename Dimension::template Motion<Number>;
+	using Row      = RowIn<Dimension>;
+
 	/// The problem's layout must be in the workspace.
-	Sweeper(Problem& problem, const SolverSettings& settings, Workspace& workspace);
+	Sweeper(Problem& problem, const Settings& settings, WorkspaceIn<Dimension>& workspace);
 
 	void plan();
 	/// Sweeps until the residual holds.
@@ -72,31 +82,27 @@ public:
 	/// Natural-map residual of a strip with the present velocities, and with `speeds` what it misses of them.
 	void measureStrip(std::size_t strip, bool speeds);
 
-	Block<Number>*         blocksOf(std::size_t strip) { return own.blocks.data() + laidOut.blockBegin[strip]; }
+	Block*                 blocksOf(std::size_t strip) { return own.blocks.data() + laidOut.blockBegin[strip]; }
 	const Numbers<Number>* playsOf(std::size_t strip) const { return own.playsFrom(laidOut.blockBegin[strip]); }
 	std::size_t            countOf(std::size_t strip) const
 	{
 		return laidOut.blockBegin[strip + 1] - laidOut.blockBegin[strip];
 	}
-	Twist twistAt(std::int32_t place) const { return twistIn(bodies, place); }
+	Twist twistAt(std::int32_t place) const { return twistOf(bodies[place]); }
 	/// Its velocity; at its place stands what impulses have changed of the free one.
-	Twist twist(std::int32_t body) const
-	{
-		const Twist &free = problem.freeVelocity[body], changed = twistAt(laidOut.placeOf[body]);
-		return { free.x + changed.x, free.y + changed.y, free.w + changed.w };
-	}
+	Twist twist(std::int32_t body) const { return sum(problem.freeVelocity[body], twistAt(laidOut.placeOf[body])); }
 
-	Problem&                     problem;
-	const SolverSettings&        settings;
-	const KernelsOf<Number>&     kernels;
-	const int                    threads;
-	ContactBlocks&               laidOut;
-	BlocksOf<Number>&            own;
-	std::vector<Motion<Number>>& bodies;
-	std::vector<Motion<Number>>& bodiesBefore;
-	StripSchedule                schedule;
-	std::vector<Row>             rows;
-	std::vector<ResidualSums>    sums; // one a part of the order
+	Problem&                            problem;
+	const Settings&                     settings;
+	const KernelsIn<Dimension, Number>& kernels;
+	const int                           threads;
+	ContactBlocksIn<Dimension>&         laidOut;
+	BlocksIn<Dimension, Number>&        own;
+	std::vector<Motion>&                bodies;
+	std::vector<Motion>&                bodiesBefore;
+	StripSchedule                       schedule;
+	std::vector<Row>                    rows;
+	std::vector<ResidualSums>           sums; // one a part of the order
 	SpeedScale      scale; // of the next look; the mean is that of the last one at which impulses were solved
 	Residual        residual;
 	VelocityChanges changes;
@@ -115,14 +121,9 @@ private:
 	void        measureRows(std::size_t strip, bool speeds, ResidualSums& sums) const;
 	void        measureChanges();
 	double      meanSquaredChange() const;
-	static void setTwists(const Row& row, const Twist& vi, const Twist& vj, std::vector<Motion<Number>>& in);
+	static void setTwists(const Row& row, const Twist& vi, const Twist& vj, std::vector<Motion>& in);
 	/// Adds M⁻¹ Hᵀ of an impulse to the velocities of a contact's bodies.
-	static void  push(const Row& row, const Impulse& impulse, std::vector<Motion<Number>>& in);
-	static Twist twistIn(const std::vector<Motion<Number>>& motions, std::int32_t place)
-	{
-		const auto& v = motions[place].v;
-		return { v[0], v[1], v[2] };
-	}
+	static void push(const Row& row, const Impulse& impulse, std::vector<Motion>& in);
 
 	bool                    outgrowsCache; // whether blocks have to be fetched from memory in every sweep
 	ActiveStrips            strips;
@@ -130,7 +131,9 @@ private:
 };
 
 /// Calls with(place, body) for the bodies that a strip is the first to touch.
-template <class Number> template <class With> void Sweeper<Number>::forNew(std::size_t s, With with) const
+template <class Dimension, class Number>
+template <class With>
+void Sweeper<Dimension, Number>::forNew(std::size_t s, With with) const
 {
 	const Places places = newIn(s);
 	for (std::size_t k = places.begin; k < places.end; ++k)
@@ -138,7 +141,7 @@ template <class Number> template <class With> void Sweeper<Number>::forNew(std::
 }
 
 /// Calls with(place, body) for the bodies that no strip has, and waits until all is done.
-template <class Number> template <class With> void Sweeper<Number>::forFixed(With with)
+template <class Dimension, class Number> template <class With> void Sweeper<Dimension, Number>::forFixed(With with)
 {
 	const long first = static_cast<long>(laidOut.order.bodyBegin.back()),
 	           count = static_cast<long>(problem.bodyCount());
@@ -148,14 +151,14 @@ template <class Number> template <class With> void Sweeper<Number>::forFixed(Wit
 }
 
 /// Calls take(contact, impulse) for every contact of a part.
-template <class Number> template <class Take> void Sweeper<Number>::forImpulses(std::size_t s, Take take) const
+template <class Dimension, class Number>
+template <class Take>
+void Sweeper<Dimension, Number>::forImpulses(std::size_t s, Take take) const
 {
 	for (std::size_t b = laidOut.blockBegin[s]; b < laidOut.blockBegin[s + 1]; ++b)
 		for (std::size_t l = 0; l < lanes; ++l)
-			if (const auto index = laidOut.contactOf[b * lanes + l]; index != ContactBlocks::none) {
-				const auto& k = own.blocks[b];
-				take(index, Impulse { k.n.v[l], k.t.v[l], k.r.v[l] });
-			}
+			if (const auto index = laidOut.contactOf[b * lanes + l]; index != laidOut.none)
+				take(index, impulseOf(own.blocks[b], l));
 	for (std::size_t k = laidOut.otherBegin[s]; k < laidOut.otherBegin[s + 1]; ++k)
 		take(laidOut.others[k], rows[k].p);
 }

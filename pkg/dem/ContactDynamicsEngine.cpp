@@ -6,6 +6,7 @@
 #include "SceneCheck.hpp"
 #include "YadeFeatures.hpp"
 #include <contact/problem_file.hpp>
+#include <contact/space/problem_file.hpp>
 #include <algorithm>
 #include <pkg/dem/ScGeom.hpp>
 
@@ -25,6 +26,13 @@ void ContactDynamicsEngine::action()
 	auto&            resident = turn.resident();
 	validate();
 	const auto gravity = nscd::gravityOf(*scene);
+	if (nscd::isInSpace(*scene, resident.bodies)) {
+		resident.show();
+		stepInSpace(timer, gravity, threads);
+		turn.end();
+		return;
+	}
+	wasInSpace = false;
 	nscd::checkGravity(*scene, gravity, gravityRamp > 0 ? finalGravity : Vector3r(Vector3r::Zero()));
 	if (!resident.hasContacts()) resident.takeContacts(*scene);
 	problemIsWhole = false;
@@ -52,7 +60,13 @@ void ContactDynamicsEngine::action()
 	});
 	const auto sums   = seam.scatter(*scene, gravity, threads, adapts);
 	problemIsWhole    = true;
-	account(sums, resident);
+	candidates        = (int)seam.links.size();
+	wayWorst          = seam.longest.radii;
+	account(sums);
+	reportOverlap(seam.overlapsOf(deepOverlap));
+	reportWay();
+	reportDriven();
+	recordBreaks(resident);
 	reportRestitution(sums.mass * (scene->dt * scene->dt) * gravity.squaredNorm());
 	report(statistics, sums.bodies > 0 ? sums.mass / sums.bodies * gravity.norm() : 0);
 	turn.end();
@@ -132,7 +146,7 @@ contact::SolverSettings ContactDynamicsEngine::settings() const
 	return s;
 }
 
-void ContactDynamicsEngine::account(const nscd::StepSums& s, const nscd::Resident& resident)
+void ContactDynamicsEngine::account(const nscd::StepSums& s)
 {
 	kineticEnergy   = s.kinetic;
 	potentialEnergy = s.potential;
@@ -166,23 +180,18 @@ void ContactDynamicsEngine::account(const nscd::StepSums& s, const nscd::Residen
 			scene->energy->add(part, name, place);
 		}
 	}
-	candidates       = (int)seam.links.size();
 	contacts         = s.touching;
 	bonds            = s.bonds;
 	overlapWorst     = s.worstOverlap;
 	overlapMean      = s.touching > 0 ? s.overlap / s.touching : 0;
 	overlapWorstEver = std::max(overlapWorstEver, overlapWorst);
 	overlapWorstPair = Vector2i(s.worstIds[0], s.worstIds[1]);
-	wayWorst         = seam.longest.radii;
 	wayWorstEver     = std::max(wayWorstEver, wayWorst);
-	reportOverlap();
-	reportWay();
-	reportDriven();
 	brokenTension += s.broken[NscdPhys::Tension];
 	brokenShear += s.broken[NscdPhys::Shear];
 	brokenTorque += s.broken[NscdPhys::Torque];
+	brokenTwisting += s.broken[NscdPhys::Twisting];
 	brokenMixed += s.broken[NscdPhys::Mixed];
-	recordBreaks(resident);
 	contactRate = s.contactRate;
 	bondRate    = s.bondRate;
 	meanSpeed   = s.bodies > 0 ? s.speed / s.bodies : 0;
@@ -224,7 +233,9 @@ void ContactDynamicsEngine::dump(const std::string& path) const
 	if (!problemIsWhole)
 		throw std::runtime_error(
 		        "ContactDynamicsEngine.dump: the last step was refused, and the problem of the one before is gone: mend what was refused, and call O.step() first");
-	contact::write(path, { seam.problem, seam.warmStart, stepSolved });
+	if (wasInSpace) contact::space::write(path, { inSpace.problem, inSpace.warmStart, stepSolved });
+	else
+		contact::write(path, { seam.problem, seam.warmStart, stepSolved });
 }
 
 } // namespace yade

@@ -14,6 +14,7 @@
 #include "Advance.hpp"
 #include "BackgroundRun.hpp"
 #include "seam/ContactSeam.hpp"
+#include "space/SpaceSeam.hpp"
 #include "StageClock.hpp"
 #include <contact/solver.hpp>
 #include <core/GlobalEngine.hpp>
@@ -106,6 +107,7 @@ and contactImpact. The same scene gives the same bits on any number of threads.)
 		((int,brokenTension,0,Attr::readonly,"Bonds broken so far by tension."))
 		((int,brokenShear,0,Attr::readonly,"Bonds broken so far by shear."))
 		((int,brokenTorque,0,Attr::readonly,"Bonds broken so far by torque."))
+		((int,brokenTwisting,0,Attr::readonly,"Bonds broken so far by twisting, in space."))
 		((int,brokenMixed,0,Attr::readonly,"Bonds broken so far by more than one of these."))
 		((vector<Real>,breakLog,,(Attr::readonly|Attr::hidden),"Rows of seven numbers, see breakTable."))
 		((Real,kineticEnergy,0,(Attr::readonly|Attr::noSave),"Kinetic energy of moving bodies at the beginning of the last step [J]."))
@@ -163,23 +165,31 @@ and contactImpact. The same scene gives the same bits on any number of threads.)
 	nscd::StageClock clock;
 
 private:
+	void                               stepInSpace(nscd::StageTimer& timer, const Vector3r& gravity, int threads);
 	void                               validate() const;
 	nonsmooth::contact::SolverSettings settings() const;
-	void                               account(const nscd::StepSums& sums, const nscd::Resident& resident);
+	void                               account(const nscd::StepSums& sums);
 	void                               recordBreaks(const nscd::Resident& resident);
 	void   report(const nonsmooth::contact::SolverStatistics& statistics, Real meanWeight);
 	string tellMissed(const nonsmooth::contact::SolverStatistics& statistics) const;
 	string tellWorstPair();
-	void   reportOverlap();
+	string tellWorstPairInSpace();
+	void   reportOverlap(int deepPairs);
 	void   reportWay();
 	void   reportDriven();
 	void   reportRestitution(Real settling);
 	void   reportChanges(nscd::Resident& resident);
 
-	nscd::ContactSeam             seam;
-	nonsmooth::contact::Workspace workspace;
-	Real                          stepSolved     = 0; // h of the last step, 0 before it
-	bool                          problemIsWhole = false; // and not half of it that of a step that was refused
+	static constexpr Real deepOverlap
+	        = 0.05; // ℓ; what a step of an ordinary run begins with is a hundredth of that
+
+	nscd::ContactSeam                    seam;
+	nscd::SpaceSeam                      inSpace;
+	nonsmooth::contact::Workspace        workspace;
+	nonsmooth::contact::space::Workspace workspaceInSpace;
+	Real                                 stepSolved = 0; // h of the last step, 0 before it
+	bool                                 wasInSpace = false; // the last step
+	bool problemIsWhole                             = false; // and not half of it that of a step that was refused
 };
 REGISTER_SERIALIZABLE(ContactDynamicsEngine);
 

@@ -2,6 +2,7 @@
 #include "BondEllipse.hpp"
 #include "ContactDynamicsEngine.hpp"
 #include "PythonBytes.hpp"
+#include "space/SpaceBond.hpp"
 #include <optional>
 #include <pkg/dem/ScGeom.hpp>
 
@@ -30,8 +31,12 @@ int ContactDynamicsEngine::bond()
 		if (!phys || !phys->bondable || phys->bonded) continue;
 		const Real gap = phys->gapOf(geom);
 		if (!(gap <= phys->creationDistance)) continue;
-		const auto pair = nscd::bondPair(*Body::byId(i->getId1(), scene), *Body::byId(i->getId2(), scene));
-		nscd::markBond(*phys, pair, pair.swapped ? Vector3r(-geom.normal) : geom.normal, gap);
+		const auto     pair = nscd::bondPair(*Body::byId(i->getId1(), scene), *Body::byId(i->getId2(), scene));
+		const Vector3r normal = pair.swapped ? Vector3r(-geom.normal) : geom.normal;
+		if (auto* inSpace = dynamic_cast<NscdSpacePhys*>(phys))
+			nscd::markBondInSpace(*inSpace, pair, normal, gap);
+		else
+			nscd::markBond(*phys, pair, normal, gap);
 		phys->touched = true;
 		++count;
 		++all;

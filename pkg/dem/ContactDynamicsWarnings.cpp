@@ -50,15 +50,14 @@ namespace {
 	}
 }
 
-void ContactDynamicsEngine::reportOverlap()
+void ContactDynamicsEngine::reportOverlap(int deepPairs)
 {
-	constexpr Real deep = 0.05; // ℓ; what a step of an ordinary run begins with is a hundredth of that
-	if (overlapWorst < deep || !nscd::seldom(++overlappedSteps)) return;
+	if (overlapWorst < deepOverlap || !nscd::seldom(++overlappedSteps)) return;
 	LOG_WARN(
 	        "step "
-	        << scene->iter << " began with " << pairsOf(seam.overlapsOf(deep))
-	        << " deep in each other, the worst bodies #" << overlapWorstPair[0] << " and #" << overlapWorstPair[1]
-	        << ", by " << 100 * overlapWorst << " % of their mean diameter (" << overlappedSteps
+	        << scene->iter << " began with " << pairsOf(deepPairs) << " deep in each other, the worst bodies #"
+	        << overlapWorstPair[0] << " and #" << overlapWorstPair[1] << ", by " << 100 * overlapWorst
+	        << " % of their mean diameter (" << overlappedSteps
 	        << " such steps so far). They were placed so, pressed by a wall that moves regardless of"
 	           " what it meets, or met faster than the collider knew of: look at how they were placed, lower O.dt or the wall's speed, or raise Law2's reach and the functors' factors."
 	           " Where none of that is so, the solve leaves overlaps: lower tolerance (it is "
@@ -131,7 +130,7 @@ void ContactDynamicsEngine::report(const contact::SolverStatistics& statistics, 
 	residualSpeedWorst          = statistics.residual.largestSpeed;
 	patches                     = statistics.patches;
 	residualSpeedPair           = Vector2i(-1, -1);
-	const string worstPair      = statistics.converged ? "" : tellWorstPair();
+	const string worstPair      = statistics.converged ? "" : wasInSpace ? tellWorstPairInSpace() : tellWorstPair();
 	++steps;
 	totalIterations += iterations;
 	if (!statistics.converged) ++unconverged;

@@ -9,6 +9,7 @@
 #pragma once
 
 #include "AccelerationRecord.hpp"
+#include <core/Body.hpp>
 #include <core/GlobalEngine.hpp>
 
 namespace yade {

@@ -2,6 +2,8 @@
 #include "SceneCheck.hpp"
 #include "Segment.hpp"
 #include "Seldom.hpp"
+#include "space/FaceGeom.hpp"
+#include "space/SpaceBond.hpp"
 #include <core/Omega.hpp>
 #include <core/Scene.hpp>
 
@@ -49,14 +51,23 @@ bool Law2_ScGeom_NscdPhys_SignoriniCoulomb::go(shared_ptr<IGeom>& ig, shared_ptr
 	if (phys.bonded) {
 		const auto pair = nscd::bondPair(
 		        *Body::byId(interaction->getId1(), scene), *Body::byId(interaction->getId2(), scene));
-		const Vector3r normal = pair.swapped ? Vector3r(-geom.normal) : geom.normal;
-		if (phys.isBondWanted()) nscd::markBond(phys, pair, normal, gap);
-		followBond(phys, gap, normal, pair);
+		const Vector3r normal  = pair.swapped ? Vector3r(-geom.normal) : geom.normal;
+		auto*          inSpace = dynamic_cast<NscdSpacePhys*>(&phys);
+		if (phys.isBondWanted())
+			inSpace ? nscd::markBondInSpace(*inSpace, pair, normal, gap)
+			        : nscd::markBond(phys, pair, normal, gap);
+		if (!inSpace) followBond(phys, gap, normal, pair);
+		else if (!nscd::followBondInSpace(*inSpace, pair, gap)) {
+			breakBond(phys);
+			phys.brokenMode = nscd::bondModeInSpace(*inSpace);
+		}
 	}
 	if (!keeps(phys, gap)) return false;
-	if (!phys.bonded && !phys.breaks)
-		if (const auto* wall = dynamic_cast<const SegmentGeom*>(&geom))
-			if (!wall->owned) return false;
+	if (!phys.bonded && !phys.breaks) {
+		const auto* wall = dynamic_cast<const SegmentGeom*>(&geom);
+		const auto* face = dynamic_cast<const FaceGeom*>(&geom);
+		if ((wall && !wall->owned) || (face && !face->owned)) return false;
+	}
 	phys.updateThresholds(gap, adhesionRange);
 	phys.touched = true;
 	return true;

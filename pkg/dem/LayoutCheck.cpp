@@ -39,6 +39,8 @@
 #pragma push_macro("YADE_OPENGL")
 #undef YADE_OPENGL
 #include <pkg/common/Wall.hpp>
+#include <pkg/common/Box.hpp>
+#include <pkg/common/Facet.hpp>
 #include <pkg/dem/DomainLimiter.hpp>
 #pragma pop_macro("YADE_OPENGL")
 // clang-format on
@@ -140,6 +142,9 @@ void checkLayout()
 	check("Sphere", "radius", &Sphere::radius, 4.625);
 	check("Wall", "sense", &Wall::sense, 1);
 	check("Wall", "axis", &Wall::axis, 2);
+	make<Box>("Box"); // vectors have no converter yet when this is asked
+	const auto facet = make<Facet>("Facet"); // a new one has three vertices
+	if (static_cast<const Facet&>(*facet).vertices.size() != 3) misplaced("Facet.vertices");
 	check("Interaction", "iterMadeReal", &Interaction::iterMadeReal, 987L);
 	check("Interaction", "iterBorn", &Interaction::iterBorn, 654L);
 	check("Interaction", "linIx", &Interaction::linIx, 46);

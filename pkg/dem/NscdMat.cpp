@@ -36,8 +36,13 @@ void NscdMat::checkNumbers() const
 	require(notNegative(rollingFriction), "rollingFriction", rollingFriction, "0 or more, and finite");
 	require(isNumber(residualRollingFriction), "residualRollingFriction", residualRollingFriction,
 	        "finite, negative for the peak value");
+	require(notNegative(twistingFriction), "twistingFriction", twistingFriction, "0 or more, and finite");
+	require(isNumber(residualTwistingFriction), "residualTwistingFriction", residualTwistingFriction,
+	        "finite, negative for the peak value");
 	require(bondEllipseNormal > 0, "bondEllipseNormal", bondEllipseNormal, "positive (units of ℓ)");
 	require(bondEllipseTangential > 0, "bondEllipseTangential", bondEllipseTangential, "positive (units of ℓ)");
+	require(bondEllipseTwisting != 0 && !std::isnan(bondEllipseTwisting), "bondEllipseTwisting",
+	        bondEllipseTwisting, "positive [rad], or negative for 2 bondEllipseTangential");
 	require(bondCreationDistance >= 0, "bondCreationDistance", bondCreationDistance, "0 or more (units of ℓ)");
 	require(restitution >= 0 && restitution <= 1, "restitution", restitution, "from 0 to 1");
 }

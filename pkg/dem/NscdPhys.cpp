@@ -1,6 +1,7 @@
 #include "NscdPhys.hpp"
 #include "Refusal.hpp"
 #include "SceneCheck.hpp"
+#include "space/NscdSpacePhys.hpp"
 #include "Seldom.hpp"
 #include <boost/make_shared.hpp>
 #include <core/Omega.hpp>
@@ -164,8 +165,11 @@ shared_ptr<NscdPhys> Ip2_NscdMat_NscdMat_NscdPhys::make(
 	           weak2 = boost::dynamic_pointer_cast<SlipWeakeningMat>(m2);
 	const auto* law  = static_cast<const NscdMat&>(*m1).interfaceWith(static_cast<const NscdMat&>(*m2));
 	const auto* weak = dynamic_cast<const SlipWeakeningMat*>(law);
-	if (!weak && (law || (!weak1 && !weak2))) return boost::make_shared<NscdPhys>();
-	const auto id1 = interaction.getId1(), id2 = interaction.getId2();
+	const auto  id1 = interaction.getId1(), id2 = interaction.getId2();
+	if (!weak && (law || (!weak1 && !weak2))) {
+		const bool inSpace = nscd::isFreeInSpace(*Body::byId(id1)) || nscd::isFreeInSpace(*Body::byId(id2));
+		return inSpace ? boost::make_shared<NscdSpacePhys>() : boost::make_shared<NscdPhys>();
+	}
 	const auto phys = boost::make_shared<SlipWeakeningPhys>();
 	if (weak) {
 		phys->wallMaterial = boost::static_pointer_cast<SlipWeakeningMat>(
@@ -210,9 +214,9 @@ void Ip2_NscdMat_NscdMat_NscdPhys::checkMaterials(const Body& b1, const Body& b2
 void Ip2_NscdMat_NscdMat_NscdPhys::setStrengths(NscdPhys& phys, const Body& b1, const Body& b2)
 {
 	checkMaterials(b1, b2);
-	setStrengths(
-	        phys, strengthsOf(static_cast<const NscdMat&>(*b1.material), static_cast<const NscdMat&>(*b2.material)),
-	        nscd::meanDiameter(b1, b2));
+	const auto &a = static_cast<const NscdMat&>(*b1.material), &b = static_cast<const NscdMat&>(*b2.material);
+	setStrengths(phys, strengthsOf(a, b), nscd::meanDiameter(b1, b2));
+	if (auto* inSpace = dynamic_cast<NscdSpacePhys*>(&phys)) inSpace->setStrengths(a, b);
 }
 
 namespace {

@@ -17,7 +17,7 @@ class NscdPhys : public FrictPhys {
 
 public:
 	/// How a bond ended; None while it lives and where there was none.
-	enum Mode { None = 0, Tension, Shear, Torque, Mixed };
+	enum Mode { None = 0, Tension, Shear, Torque, Mixed, Twisting };
 
 	virtual ~NscdPhys() = default;
 	/// Sets F_a [N], μ_s and μ_r ℓ [m] of the next step for a gap [m]; adhesionRange in units of ℓ.
@@ -34,7 +34,7 @@ public:
 	/// Whether a script has set `bonded` where no bond was made: the next loop makes it, as the bodies are then.
 	bool isBondWanted() const { return bonded && axis == Vector3r::Zero(); }
 	/// An attribute whose number makes no sense in the law, and the number; null where all do.
-	std::pair<const char*, Real> senseless() const;
+	virtual std::pair<const char*, Real> senseless() const;
 	/// Whether somebody has written into an attribute of FrictPhys since it was last set here: those of YADE's own classes leave no mark.
 	bool isWritten() const { return isFrictionWritten() || isReset() || unheard(); }
 	/// The attribute of YADE's own classes that was written to and that a rigid contact cannot hear; null where there is none.
@@ -85,7 +85,7 @@ the solver finds them, and so are stiffnesses ``kn`` and ``ks``, which rigid con
 		((Real,restitution,0,Attr::triggerPostLoad,"Coefficient of restitution."))
 		((Real,correction,0,(Attr::readonly|Attr::hidden),"Pseudo-impulse of the last correction of positions [kg m], from which the next one starts."))
 		((long,brokenStep,-1,Attr::readonly,"Step at which the bond broke; -1: none did since the last one was made."))
-		((int,brokenMode,None,Attr::readonly,"How the bond broke: 0 not broken, 1 tension, 2 shear, 3 torque, 4 mixed."))
+		((int,brokenMode,None,Attr::readonly,"How the bond broke: 0 not broken, 1 tension, 2 shear, 3 torque (in space rolling), 4 mixed, 5 twisting (in space)."))
 		((bool,bonded,false,Attr::triggerPostLoad,"A bond holds. Set to True by a script where none does, it is made in the next step, as :yref:`ContactDynamicsEngine.bond` makes it, whatever the gap; set to False it ends, and does not count as broken."))
 		((bool,yielded,false,(Attr::readonly|Attr::hidden),"The bond yielded in tension in the last step."))
 		((bool,slid,false,(Attr::readonly|Attr::hidden),"The bond yielded in shear in the last step."))

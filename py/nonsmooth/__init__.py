@@ -36,6 +36,8 @@ FACE = {
     "tables": "world.tables",
     "worlds": "world.worlds",
     "soft": "world.soft",
+    "hardening": "world.hardening",
+    "space": "world.space",
     "wall_forces": "world.wall_forces",
     "experiment": "studies.slope.experiment",
     "runs": "studies.runs",
@@ -49,7 +51,17 @@ FACE = {
     "servers": "running.servers",
 }
 
-__all__ = [*(name for name in FACE if "." not in name), "campaign", "contact", "errors", "figures", "records", "slip", "water"]
+__all__ = [
+    *(name for name in FACE if "." not in name),
+    "campaign",
+    "contact",
+    "errors",
+    "figures",
+    "harden",
+    "records",
+    "slip",
+    "water",
+]
 
 
 class _Face(importlib.abc.MetaPathFinder, importlib.abc.Loader):
@@ -83,6 +95,8 @@ sys.meta_path.insert(0, _Face())
 
 
 def __getattr__(name):
+    if name == "harden":  # a function of its own, which reads as the one line that it is
+        return importlib.import_module(f"{__name__}.world.hardening").harden
     if name in __all__:
         return importlib.import_module(f"{__name__}.{name}")
     raise AttributeError(f"module {__name__!r} has no attribute {name!r}")

@@ -1,8 +1,9 @@
 """Contact problems of single steps as arrays and files, and the solver without YADE.
 
 A problem is what one step of :class:`ContactDynamicsEngine` has to solve: write it with ``engine.dump("step.h5")``,
-read it here. The file's format stands in ``pkg/contact/problem_file.hpp``. Needs NumPy and this project's module
-``_nonsmooth_contact``, but no YADE::
+read it here. :class:`ContactProblem` is one of disks in the plane, :class:`SpaceProblem` one of spheres, and of other
+bodies, in space; all functions take both. The file's format stands in ``pkg/contact/problem_file.hpp`` and
+``pkg/contact/space/problem_file.hpp``. Needs NumPy and this project's module ``_nonsmooth_contact``, but no YADE::
 
     import nonsmooth.contact as contact
     problem = contact.load("step.h5")
@@ -26,6 +27,7 @@ __all__ = [
     "ProblemError",
     "Residual",
     "Solution",
+    "SpaceProblem",
     "VelocityChanges",
     "load",
     "paths",
@@ -67,6 +69,35 @@ class ContactProblem:
 
 
 @dataclass(frozen=True)
+class SpaceProblem:
+    """The same in space: b bodies and c contacts; SI units, compression positive, contacts from i to j.
+
+    Impulses and velocities are vectors of the world: f and m of a contact [N s, N m s], v and ω of a body
+    [m/s, rad/s]. ``pkg/contact/space/problem.hpp`` has the equations.
+    """
+
+    time_step: float  # h [s]
+    inverse_mass: np.ndarray  # (b, 3): 1/m_x, 1/m_y, 1/m_z [1/kg]; 0 where blocked
+    inverse_inertia: np.ndarray  # (b, 6): xx, yy, zz, yz, zx, xy of the inverse tensor [1/(kg m²)]; 0 where blocked
+    free_velocity: np.ndarray  # (b, 6): v, ω at the end of the step if no contact acted
+    velocity: np.ndarray  # (b, 6): the step's solution
+    body: np.ndarray  # (c, 2) int32: i, j
+    normal: np.ndarray  # (c, 3)
+    lever: np.ndarray  # (c, 2): λ_i, λ_j [m], the arms' parts along n: radius of i, minus radius of j
+    bias: np.ndarray  # (c, 7): b_n [m/s], b_t (3) [m/s], b_w (3) [rad/s]
+    adhesion: np.ndarray  # (c,): h F_a [N s]
+    friction: np.ndarray  # (c,): μ_s
+    rolling_arm: np.ndarray  # (c,): μ_r ℓ [m]
+    twisting_arm: np.ndarray  # (c,): μ_tw ℓ [m]
+    length: np.ndarray  # (c,): ℓ [m]
+    warm_start: np.ndarray  # (c, 6): impulses the step's solve began with
+    impulse: np.ndarray  # (c, 6): the step's solution
+    position: np.ndarray | None = None  # (b, 3) [m], for the order of the sweep only
+    aside: np.ndarray | None = None  # (c, 6): the arms' parts across n, of i and of j [m]; None where all are 0
+    play: np.ndarray | None = None  # (c,): as in the plane [m/s]
+
+
+@dataclass(frozen=True)
 class Residual:
     """Distance from the graphs of the law (natural map), whoever found the impulses; rms and largest value over
     contacts.
@@ -80,7 +111,8 @@ class Residual:
     # rms over contacts of what relative velocities miss, as a share of it and of the bodies' change of velocity [-]
     speed_share: float
     speed_share_largest: float
-    defect: np.ndarray  # (c, 3): P − proj(P − (U + b)/W) of every contact [N s, N s, N m s]
+    # (c, 3): P − proj(P − (U + b)/W) of every contact [N s, N s, N m s]; in space (c, 6): f, m
+    defect: np.ndarray
 
 
 @dataclass(frozen=True)
@@ -104,8 +136,8 @@ class VelocityChanges:
 class Solution:
     """What a solve found: impulses, velocities, and how well they hold."""
 
-    impulse: np.ndarray  # (c, 3)
-    velocity: np.ndarray  # (b, 3)
+    impulse: np.ndarray  # (c, 3), in space (c, 6)
+    velocity: np.ndarray  # (b, 3), in space (b, 6)
     iterations: int
     in_single: int  # those of them in single precision
     restarts: int
@@ -118,7 +150,31 @@ class Solution:
     seconds: float  # wall time of the solve, without the copying of arrays [s]
 
 
-_BODIES = {"inverse_mass": 3, "free_velocity": 3, "velocity": 3}
+@dataclass(frozen=True)
+class _Dimension:
+    """What differs between the plane and space: columns of arrays (0: a list), and names in the module."""
+
+    bodies: dict
+    contacts: dict
+    optional: dict  # arrays that may be None: (their rows, their columns)
+    suffix: str = ""
+
+    @property
+    def arrays(self):
+        """Names of what a solve reads."""
+        solution = ("velocity", "warm_start", "impulse")
+        return (*(name for name in (*self.bodies, *self.contacts) if name not in solution), "body", *self.optional)
+
+    @property
+    def impulse(self):
+        return self.contacts["impulse"]
+
+    def call(self, function, *arguments):
+        import _nonsmooth_contact
+
+        return getattr(_nonsmooth_contact, function + self.suffix)(*arguments)
+
+
 CONTACT_ARRAYS = {
     "normal": 2,
     "lever": 4,
@@ -130,24 +186,53 @@ CONTACT_ARRAYS = {
     "warm_start": 3,
     "impulse": 3,
 }
+SPACE_CONTACT_ARRAYS = {
+    **CONTACT_ARRAYS,
+    "normal": 3,
+    "lever": 2,
+    "bias": 7,
+    "twisting_arm": 0,
+    "warm_start": 6,
+    "impulse": 6,
+}
+_PLANE = _Dimension(
+    {"inverse_mass": 3, "free_velocity": 3, "velocity": 3},
+    CONTACT_ARRAYS,
+    {"position": ("inverse_mass", 2), "play": ("normal", 0)},
+)
+_SPACE = _Dimension(
+    {"inverse_mass": 3, "inverse_inertia": 6, "free_velocity": 6, "velocity": 6},
+    SPACE_CONTACT_ARRAYS,
+    {"position": ("inverse_mass", 3), "aside": ("normal", 6), "play": ("normal", 0)},
+    "_space",
+)
 
 
-def load(path) -> ContactProblem:
+def _dimension(problem) -> _Dimension:
+    for kind, dimension in ((ContactProblem, _PLANE), (SpaceProblem, _SPACE)):
+        if isinstance(problem, kind):
+            return dimension
+    raise ProblemError(f"{problem!r} is no contact problem: it must be a ContactProblem or a SpaceProblem")
+
+
+def load(path) -> ContactProblem | SpaceProblem:
     """Reads a problem; raises ProblemError naming the file and what is missing or wrong in it."""
     import _nonsmooth_contact
 
     try:
-        return ContactProblem(**_nonsmooth_contact.load(os.fspath(path)))
+        arrays = _nonsmooth_contact.load(os.fspath(path))
     except RuntimeError as error:
         raise ProblemError(str(error)) from None
+    return {2: ContactProblem, 3: SpaceProblem}[arrays.pop("dimension")](**arrays)
 
 
-def check(problem: ContactProblem, what="contact problem") -> ContactProblem:
+def check(problem: ContactProblem | SpaceProblem, what="contact problem") -> ContactProblem | SpaceProblem:
     """Returns the problem if all arrays have the shapes and kinds of numbers they must have, and contacts name bodies
     that are there.
 
     Raises ProblemError naming the array otherwise. Values are :func:`solve`'s to refuse.
     """
+    dimension = _dimension(problem)
     step = problem.time_step
     if not (isinstance(step, numbers.Real) and np.isfinite(step) and step > 0):
         raise ProblemError(f"{what}: time_step = {step!r}: it must be a positive number of seconds")
@@ -155,13 +240,13 @@ def check(problem: ContactProblem, what="contact problem") -> ContactProblem:
         if np.ndim(getattr(problem, name)) == 0:
             raise ProblemError(f"{what}: {name} must be an array")
     bodies, contacts = len(problem.inverse_mass), len(problem.normal)
-    shapes = {name: (bodies, columns) for name, columns in _BODIES.items()}
-    shapes.update({name: (contacts, columns) if columns else (contacts,) for name, columns in CONTACT_ARRAYS.items()})
-    shapes["body"] = (contacts, 2)
-    if problem.position is not None:
-        shapes["position"] = (bodies, 2)
-    if problem.play is not None:
-        shapes["play"] = (contacts,)
+    rows = {name: (bodies, columns) for name, columns in dimension.bodies.items()}
+    rows.update({name: (contacts, columns) for name, columns in dimension.contacts.items()})
+    rows["body"] = (contacts, 2)
+    for name, (of, columns) in dimension.optional.items():
+        if getattr(problem, name) is not None:
+            rows[name] = (len(getattr(problem, of)), columns)
+    shapes = {name: shape if shape[1] else shape[:1] for name, shape in rows.items()}
     for name, shape in shapes.items():
         _checked(f"{what}: {name}", getattr(problem, name), shape, "iu" if name == "body" else "fiu")
     if contacts and not (0 <= np.min(problem.body) and np.max(problem.body) < bodies):
@@ -185,14 +270,13 @@ def _checked(what, value, shape, kinds):
     return array
 
 
-def save(path, problem: ContactProblem) -> Path:
+def save(path, problem: ContactProblem | SpaceProblem) -> Path:
     """Writes a problem beside and renames; returns the path."""
-    import _nonsmooth_contact
-
     path = Path(path)
     check(problem)
     try:
-        _nonsmooth_contact.save(
+        _dimension(problem).call(
+            "save",
             os.fspath(path),
             {
                 **_arrays(problem, problem.impulse),
@@ -207,23 +291,10 @@ def save(path, problem: ContactProblem) -> Path:
 
 
 def _arrays(problem, impulse):
-    fields = (
-        "inverse_mass",
-        "free_velocity",
-        "position",
-        "body",
-        "normal",
-        "lever",
-        "bias",
-        "adhesion",
-        "friction",
-        "rolling_arm",
-        "length",
-        "play",
-    )
+    dimension = _dimension(problem)
     return {
-        **{name: getattr(problem, name) for name in fields},
-        "impulse": _checked("impulse", impulse, (len(problem.normal), 3), "fiu"),
+        **{name: getattr(problem, name) for name in dimension.arrays},
+        "impulse": _checked("impulse", impulse, (len(problem.normal), dimension.impulse), "fiu"),
     }
 
 
@@ -234,7 +305,7 @@ def _whole(name, value, least, most):
 
 
 def solve(
-    problem: ContactProblem,
+    problem: ContactProblem | SpaceProblem,
     method="accelerated",
     tolerance=1e-4,
     max_iterations=1000,
@@ -248,7 +319,7 @@ def solve(
     """Solves the problem with the project's solver.
 
     ``method``: "accelerated" or "gaussSeidel"; ``start``: "warm" (what the step began with), "cold" (zero) or impulses
-    of shape (c, 3). ``stopping``: what ``tolerance`` is compared with: "naturalMap" (the residual) or one of LMGC90's
+    of shape (c, 3), in space (c, 6). ``stopping``: what ``tolerance`` is compared with: "naturalMap" (the residual) or one of LMGC90's
     tests, "Quad", "Maxm", "QM/16". ``path``: the loops of the sweep: "best" (four or eight contacts at a time, by the
     fastest instructions of this processor), one of :func:`paths` with the same bits, or "reference" (contact after
     contact, by the general formulas; the same solution to within the tolerance). ``precision``: "mixed" (sweeps in
@@ -276,8 +347,16 @@ def solve(
     )
     threads = _whole("threads", threads, 1, _nonsmooth_contact.most_threads)
     try:
-        found = _nonsmooth_contact.solve(
-            _arrays(check(problem), start), method, float(tolerance), *sweeps, threads, stopping, path, precision
+        found = _dimension(problem).call(
+            "solve",
+            _arrays(check(problem), start),
+            method,
+            float(tolerance),
+            *sweeps,
+            threads,
+            stopping,
+            path,
+            precision,
         )
     except ValueError as error:
         raise ProblemError(str(error)) from None
@@ -310,11 +389,12 @@ def paths() -> tuple:
     return (*_nonsmooth_contact.kernels, "reference")
 
 
-def residual(problem: ContactProblem, impulse=None) -> Residual:
-    """Residual of impulses of shape (c, 3) (default: those in the problem), from velocities computed anew from them."""
-    import _nonsmooth_contact
-
-    r = _nonsmooth_contact.residual(_arrays(check(problem), problem.impulse if impulse is None else impulse))
+def residual(problem: ContactProblem | SpaceProblem, impulse=None) -> Residual:
+    """Residual of impulses of shape (c, 3), in space (c, 6) (default: those in the problem), from velocities computed
+    anew from them.
+    """
+    arrays = _arrays(check(problem), problem.impulse if impulse is None else impulse)
+    r = _dimension(problem).call("residual", arrays)
     h = problem.time_step
     return Residual(
         r["relative"],
@@ -328,12 +408,9 @@ def residual(problem: ContactProblem, impulse=None) -> Residual:
     )
 
 
-def velocity_changes(problem: ContactProblem, impulse=None) -> VelocityChanges:
-    """Figures of LMGC90's stopping tests for impulses of shape (c, 3) (default: those in the problem), from velocities
-    computed anew.
+def velocity_changes(problem: ContactProblem | SpaceProblem, impulse=None) -> VelocityChanges:
+    """Figures of LMGC90's stopping tests for impulses as :func:`residual` takes them (default: those in the problem),
+    from velocities computed anew.
     """
-    import _nonsmooth_contact
-
-    return VelocityChanges(
-        **_nonsmooth_contact.velocity_changes(_arrays(check(problem), problem.impulse if impulse is None else impulse))
-    )
+    arrays = _arrays(check(problem), problem.impulse if impulse is None else impulse)
+    return VelocityChanges(**_dimension(problem).call("velocity_changes", arrays))

@@ -7,10 +7,10 @@ root=$(cd "$(dirname "$(readlink -f "${BASH_SOURCE[0]}")")/../.." && pwd)
 [ $# -eq 3 ] || { sed -n '2,3s/^# //p' "${BASH_SOURCE[0]}" >&2; exit 2; }
 mkdir -p "$2"
 cd "$root"
-for source in pkg/contact/*.cpp pkg/contact/plane/*.cpp pkg/neighbours/*.cpp; do
-    "$1" -std=c++17 -O1 -ffp-contract=off -fopenmp -Wall -Wextra -Werror -Wno-psabi -Ipkg -isystem "$3" -c "$source" -o "$2/$(basename "$source" .cpp).o"
+for source in pkg/contact/*.cpp pkg/contact/plane/*.cpp pkg/contact/space/*.cpp pkg/neighbours/*.cpp; do
+    "$1" -std=c++17 -O1 -ffp-contract=off -fopenmp -Wall -Wextra -Werror -Wno-psabi -Ipkg -isystem "$3" -c "$source" -o "$2/$(echo "$source" | tr / _).o"
 done
 for header in pkg/contact/*/*.hpp; do # functions that no source of the solver calls
-    echo "#include <${header#pkg/}>" | "$1" -std=c++17 -ffp-contract=off -Wall -Wextra -Werror -Ipkg -x c++ -fsyntax-only -
+    echo "#include <${header#pkg/}>" | "$1" -std=c++17 -ffp-contract=off -fopenmp -Wall -Wextra -Werror -Wno-psabi -Ipkg -x c++ -fsyntax-only -
 done
 echo "$(find "$2" -name '*.o' | wc -l) sources compiled for $("$1" -dumpmachine)"

@@ -59,7 +59,7 @@ Survey surveyed(const Problem& p, int threads = 1)
 SweepOrder arranged(const Problem& p, int threads = 1)
 {
 	SweepOrder result;
-	EXPECT_FALSE(arrange(p, surveyed(p, threads), threads, result)); // nothing stood there
+	EXPECT_FALSE(arrange(coordinatesOf(p), surveyed(p, threads), threads, result)); // nothing stood there
 	return result;
 }
 

@@ -103,7 +103,7 @@ NAMES = tuple(_column())
 
 def _write(path, compressed):
     with h5py.File(path, "w") as file:
-        file.attrs["format"], file.attrs["time_step"] = np.int32(1), 5e-3
+        file.attrs["format"], file.attrs["dimension"], file.attrs["time_step"] = np.int32(2), np.int32(2), 5e-3
         for name, values in _column().items():
             file.create_dataset(name, data=values, **({"compression": "gzip", "shuffle": True} if compressed else {}))
 
@@ -212,7 +212,7 @@ inside = st.one_of(
     st.tuples(st.just(claimed), names, st.sampled_from([1, 13, 10**6, 10**9, 10**12, 2**62])),
     st.tuples(st.just(value), names.filter(lambda name: name != "contacts/body"), places, numbers),
     st.tuples(st.just(value), st.just("contacts/body"), places, st.integers(-(2**31), 2**31 - 1)),
-    st.tuples(st.just(attribute), st.sampled_from(["format", "time_step"]), attributes),
+    st.tuples(st.just(attribute), st.sampled_from(["format", "dimension", "time_step"]), attributes),
 )
 bytewise = st.one_of(
     st.tuples(st.just(flip), places, st.integers(0, 255)),
@@ -284,7 +284,10 @@ def test_damaged_files_are_refused_or_solved(reader, tmp_path_factory, compresse
         ("has no dataset /contacts/lever", (instead, "contacts/lever", h5py.SoftLink("/nowhere"))),
         ("contact 11 names body 13: there are 13, counted from 0", (value, "contacts/body", 1, 13)),
         ("contact 11 names body -1", (value, "contacts/body", 1, -1)),
-        ("is not a contact problem of format 1, but of 2", (attribute, "format", 2)),
+        ("is not a contact problem of format 1 or 2, but of 3", (attribute, "format", 3)),
+        ("has the dimension 4: it must be 2 or 3", (attribute, "dimension", 4)),
+        ("has no attribute dimension", (attribute, "dimension", None)),
+        ("/contacts/normal must have 3 column(s)", (attribute, "dimension", 3)),
         ("has no usable attribute format", (attribute, "format", "one")),
         ("has no attribute format", (attribute, "format", None)),
         ("has no usable attribute time_step", (attribute, "time_step", np.zeros(3))),

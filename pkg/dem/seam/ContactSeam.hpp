@@ -38,7 +38,7 @@ struct ContactSums {
 	int  worstIds[2] = { -1, -1 }; // bodies of the first contact that has the maximum
 	Real contactRate = 0, bondRate = 0; // [1/s], see NonsmoothTimeStepper
 	Real heldWork = 0; // of tension in bonds that do not open [J]: none but for errors of the step's positions
-	int  touching = 0, bonds = 0, broken[5] = { 0, 0, 0, 0, 0 };
+	int  touching = 0, bonds = 0, broken[6] = { 0, 0, 0, 0, 0, 0 }; // the last ones by NscdPhys::Mode
 
 	bool anyBroken() const
 	{

@@ -31,7 +31,7 @@ void StepSums::add(const StepSums& other)
 	bondRate    = std::max(bondRate, other.bondRate);
 	touching += other.touching;
 	bonds += other.bonds;
-	for (int m = 0; m < 5; ++m)
+	for (size_t m = 0; m < std::size(broken); ++m)
 		broken[m] += other.broken[m];
 	kinetic += other.kinetic;
 	potential += other.potential;

@@ -16,6 +16,8 @@ from . import (
     shaking,
     slip,
     solver,
+    space,
+    space_solver,
     state,
     walls,
     water,
@@ -24,6 +26,7 @@ from . import (
 MUTANTS = (
     law.MUTANTS
     + solver.MUTANTS
+    + space_solver.MUTANTS
     + plane.MUTANTS
     + engines.MUTANTS
     + between.MUTANTS
@@ -41,6 +44,7 @@ MUTANTS = (
     + drawing.MUTANTS
     + water.MUTANTS
     + erosion.MUTANTS
+    + space.MUTANTS
 )
 
 #: Mutants that no test sees, and why that is left so: {name: reason}.

@@ -30,5 +30,5 @@ MUTANTS = (
            ((SEAM, "c.friction        = reading.friction;", "c.friction = 0.5 * reading.friction;"),),
            checks("slider-on-a-plane", "oblique-impact", "disk-on-an-incline", "spinning-disk")),
     Mutant("early", "the solver stops at a million times its tolerance and calls that solved",
-           (("pkg/contact/sweeper.cpp", "residual.missed(tolerance, laidOut.survey.uneven) <= 1", "residual.missed(1e6 * tolerance, laidOut.survey.uneven) <= 1"),), checks("stack-of-disks", "elastic-chain")),
+           (("pkg/contact/sweeper.tpp", "residual.missed(tolerance, laidOut.survey.uneven) <= 1", "residual.missed(1e6 * tolerance, laidOut.survey.uneven) <= 1"),), checks("stack-of-disks", "elastic-chain")),
 )

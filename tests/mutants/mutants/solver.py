@@ -2,9 +2,9 @@
 from mutant import mutant
 
 LAW, KERNELS, PROBLEM, SLIP = ("pkg/contact/law.hpp", "pkg/contact/block_kernels.inc", "pkg/contact/problem.hpp", "pkg/contact/slip_weakening.hpp")
-SOLVER, SWEEPER, CORRECTION = ("pkg/contact/solver.cpp", "pkg/contact/sweeper.cpp", "pkg/contact/position_correction.cpp")
-ACCESS = "pkg/contact/lane_access.inc"
-BLOCKS, RESIDUAL, STOPPING = ( "pkg/contact/contact_blocks.cpp", "pkg/contact/residual.cpp", "pkg/contact/stopping.cpp")
+SOLVER, SWEEPER, CORRECTION = ("pkg/contact/solve.tpp", "pkg/contact/sweeper.tpp", "pkg/contact/position_correction.cpp")
+ACCESS, LOOPS, CORRECT = "pkg/contact/lane_access.inc", "pkg/contact/block_loops.inc", "pkg/contact/correct.tpp"
+BLOCKS, RESIDUAL, STOPPING = ( "pkg/contact/contact_blocks.tpp", "pkg/contact/residual.cpp", "pkg/contact/stopping.cpp")
 ORDER, CUT, SCHEDULE = ("pkg/contact/sweep_order.cpp", "pkg/contact/strip_cut.cpp", "pkg/contact/strip_schedule.cpp")
 WAVES = "pkg/contact/strip_schedule.hpp"
 STRIPS, EXTRAPOLATION = "pkg/contact/active_strips.cpp", "pkg/contact/extrapolation.hpp"
@@ -36,7 +36,7 @@ MUTANTS = (
            "rolling is extrapolated from the tangential impulse before", "gtest:Reference.*:Blocks.Reference*"),
     mutant("rows-coupled", KERNELS, "u.w + turn * dt", "u.w - turn * dt", "the turn that a tangential impulse gives is taken back from the rolling row",
            "gtest:Blocks.Reference*:OneContact*"),
-    mutant("largest-of-lanes", KERNELS, "maxOf<double>(sums.largest, all.largest[l])", "minOf<double>(sums.largest, all.largest[l])", "the largest residual is the smallest of the lanes",
+    mutant("largest-of-lanes", LOOPS, "maxOf<double>(sums.largest, all.largest[l])", "minOf<double>(sums.largest, all.largest[l])", "the largest residual is the smallest of the lanes",
            "gtest:Blocks.Reported*:Residual.*"),
     mutant("restart-rule", EXTRAPOLATION, "residual > beforeLast", "residual < beforeLast", "the extrapolation begins anew where the residual falls",
            "gtest:Reference.*:Pinned.*"),
@@ -74,7 +74,7 @@ MUTANTS = (
            "push<Number, Access>(k, at, n - at.get(k->beforeN), t - at.get(k->beforeT), r - at.get(k->beforeR), a, b)",
            "push<Number, Access>(k, at, at.get(k->beforeN) - n, t - at.get(k->beforeT), r - at.get(k->beforeR), a, b)",
            "a strip that comes to rest leaves momentum in velocities", "gtest:ActiveStrips.*"),
-    mutant("strips-momentum-rows", SWEEPER, "push(row, lost, bodiesBefore);", "push(row, lost, bodies);",
+    mutant("strips-momentum-rows", SWEEPER, "push(row, difference(row.p, row.before), bodiesBefore);", "push(row, difference(row.p, row.before), bodies);",
            "contacts outside blocks push bodies when they come to rest", "gtest:ActiveStrips.*"),
     mutant("strips-left-over", SWEEPER, "begin.back() > begin[begin.size() - 2]", "false", "strips rest though contacts of no strip move their bodies",
            "gtest:Threads.*"),
@@ -82,7 +82,7 @@ MUTANTS = (
            "gtest:Manufactured.WhatIsMoved*"),
     mutant("position-held", CORRECTION, "e.held ? without : 0", "e.held ? 0 : without",
            "contacts pull and bonds do not, where errors of position are taken back", "gtest:Positions.*"),
-    mutant("position-friction", CORRECTION, "across[s] ? graphs.friction : 0", "c.friction",
+    mutant("position-friction", CORRECTION, "across ? graphs.friction : 0", "c.friction",
            "displacements of contacts outside the blocks know friction", "gtest:Positions.*"),
     mutant("position-across", CORRECTION, "k.biasT.v[l]      = graphs.biasT;", "k.biasT.v[l] = 0;", "what bonds have slipped is not taken back", "gtest:Positions.*"),
     mutant("position-turn", CORRECTION, "k.biasR.v[l]      = graphs.biasR;", "k.biasR.v[l] = -graphs.biasR;", "what bonds have turned is doubled", "gtest:Positions.*"),
@@ -123,7 +123,7 @@ MUTANTS = (
            "contacts that slide are beside their threshold by a rounding of floats", "gtest:Precision.*"),
     mutant("single-opens", KERNELS, "nF <= -adhesionF", "nF < -adhesionF",
            "bonds that open are beside their threshold by a rounding of floats", "gtest:Precision.*"),
-    mutant("single-halves", ACCESS, "bodies[id[l + halfLanes]].v = high(v);", "bodies[id[l + halfLanes]].v = low(v);",
+    mutant("single-halves", ACCESS, "row(l + halfLanes) = high(v);", "row(l + halfLanes) = low(v);",
            "bodies of a block's second half get what those of the first got", "gtest:Precision.*"),
     mutant("single-anew", SOLVER, "if (written) finish(true);", "if (written) exact.residual = rounded->residual;",
            "what floats have found is not held against the law in doubles", "gtest:Precision.*"),
@@ -142,7 +142,7 @@ MUTANTS = (
     mutant("colours-of-one", ORDER, "if (MovablePair::moves(j)) used[j] |= bit;", "if (MovablePair::moves(j)) used[j] |= 0;",
            "a colour is taken at the first body of a contact only", "gtest:SweepOrder.*"),
     mutant("strips-far", ORDER, "std::abs(i - j) > 1", "std::abs(i - j) > 2", "contacts over two strips are not left over", "gtest:SweepOrder.*"),
-    mutant("strips-axis", CUT, "spans[0].length() >= spans[1].length() ? 0 : 1", "spans[0].length() >= spans[1].length() ? 1 : 0", "strips are cut along the short side",
+    mutant("strips-axis", CUT, "other.length() > span.length()", "other.length() < span.length()", "strips are cut along the short side",
            "gtest:SweepOrder.*"),
     mutant("strips-few", CUT, "pairs.size() < 2 * contactsAStrip", "pairs.size() < 20 * contactsAStrip", "middling packings are not cut into strips",
            "gtest:SweepOrder.*:Threads.*"),
@@ -154,13 +154,13 @@ MUTANTS = (
            "two passes wait for room for four at once", "gtest:StripSchedule.*"),
     mutant("schedule-triangle", WAVES, "end - k - 1", "end - k", "the triangle between two stretches leaves out its first odd strip", "gtest:StripSchedule.*"),
     # ---- residuals, stopping, slip, refusals
-    mutant("residual-speeds", RESIDUAL, "speed(defects[k].r, w.r) * c.length", "speed(defects[k].r, w.r)", "the residual of rolling as a speed lacks its length",
+    mutant("residual-speeds", RESIDUAL, "speed(defect.r, w.r) * c.length", "speed(defect.r, w.r)", "the residual of rolling as a speed lacks its length",
            "gtest:Residual.*"),
     mutant("residual-scale", RESIDUAL, "std::sqrt(scale / n)", "std::sqrt(scale)", "the scale of the residual is a sum and no mean",
            "gtest:Manufactured.WhatIsMoved*"),
     mutant("stopping-qm16", STOPPING, "std::max(quad, maxm / maxmToQuad)", "std::min(quad, maxm / maxmToQuad)", "QM/16 is the smaller of its two figures",
            "gtest:Stopping.*"),
-    mutant("stopping-drift", STOPPING, "drift += dot(r, d);", "drift += dot(d, d);", "the drift is no work", "gtest:Stopping.*"),
+    mutant("stopping-drift", STOPPING, "drift += contact.drift;", "drift += contact.change;", "the drift is no work", "gtest:Stopping.*"),
     mutant("slip-linear", SLIP, "slip < critical ? 1 - slip / critical : 0", "slip < critical ? slip / critical : 0", "linear weakening begins with nothing",
            "gtest:SlipWeakening.*"),
     mutant("slip-step", SLIP, "slip < critical ? 1 : 0", "slip <= critical ? 1 : 0", "strength is there at D_c still", "gtest:SlipWeakening.*"),
@@ -183,10 +183,10 @@ MUTANTS = (
     mutant("law-given-closing", LAW, "if (lost < 0) return {};", ";", "bodies that are driven into each other rub as if nothing pressed them",
            "gtest:Law.GivenMotionByHand"),
     # ---- bonds that close freely
-    mutant("play-length", LAW, "std::min(n + inverse * c.play, 0.0)", "std::min(n - inverse * c.play, 0.0)", "a bond that closes freely pulls below its length", "gtest:Play.EachBranch*"),
+    mutant("play-length", LAW, "std::min(n + inverse * play, 0.0)", "std::min(n - inverse * play, 0.0)", "a bond that closes freely pulls below its length", "gtest:Play.EachBranch*"),
     mutant("play-given", LAW, "lost - c.play", "lost", "a bond whose motion is given pulls as soon as its bodies part", "gtest:Play.GivenMotionByHand"),
-    mutant("play-kernels", KERNELS, "minOf<V>(n + at.get(play), zero)", "minOf<V>(n, zero)", "sweeps in blocks know nothing of play", "gtest:Play.OnePair*"),
-    mutant("play-displaced", CORRECTION, "playOf(k, l, e.play)", "0", "displacements keep a bond that may close as far as it was", "gtest:Play.Displacements*"),
+    mutant("play-kernels", LOOPS, "minOf<V>(n + at.get(play), zero)", "minOf<V>(n, zero)", "sweeps in blocks know nothing of play", "gtest:Play.OnePair*"),
+    mutant("play-displaced", CORRECT, "playOf(k, l, e.play)", "0", "displacements keep a bond that may close as far as it was", "gtest:Play.Displacements*"),
     mutant("play-patch", "pkg/contact/interior_point.cpp", "c.play - u[0] - (e.drawn.speed - e.spare.speed)", "u[0] - c.play - (e.drawn.speed - e.spare.speed)", "in patches a bond is short by what it is long",
            "gtest:Play.AHeavyDisk*"),
 )

@@ -14,7 +14,7 @@ from shell import SCRIPTS
 from slope_scenes import SMALL
 from yade.nonsmooth import campaign as campaigns, errors, experiment, lessons, packing, section
 from yade.nonsmooth.heaps import study
-from yade.nonsmooth.judges.benchmark import scale, suite
+from yade.nonsmooth.judges.benchmark import scale, spheres, suite
 from yade.nonsmooth.judges.verification import runner, soak
 from yade.nonsmooth.laboratory import calibration, campaign, effects, rock_table, table1, tension_campaign, wall_shear
 from yade.nonsmooth.slip import block
@@ -100,6 +100,7 @@ HOLDER = {  # what a command asks: a module or class, and its function
 OTHERS = {
     ("compare_hard_soft.py", "--cost"): (cost, "run"),
     ("benchmark.py", "--scale"): (scale, "run"),
+    ("benchmark.py", "--space"): (spheres, "measure"),
     ("jiufengershan.py", "--resume"): (experiment, "resume"),
     ("slope.py", "--resume"): (experiment, "resume"),
     **{
@@ -368,6 +369,7 @@ WHERE = {
         "--threads": (("--threads", 7), lambda a: a.words[3], 7),
         "--quick": (("--quick",), lambda a: a.words[4], suite.QUICK),
         "--scale": (("--scale", "2000,3000"), lambda a: a.words[2], [2000, 3000]),
+        "--space": (("--space", "--quick"), lambda a: a.words[0], suite.QUICK.repeats),
     },
     "soak.py": {
         "--disks": (("--disks", 61), lambda a: a.words[0], 61),
@@ -461,6 +463,7 @@ WHERE = {
     },
     "rocks.py": {
         "--check": (("--check",), lambda a: [e.name for e in a.words[1]][0], "c-20-phi-25"),
+        "--add": (("--add", "--frictions", 0.5, 0.6), lambda a: [e.material.friction for e in a.words[1]], [0.5, 0.6]),
         "--disks": (("--disks", 321), lambda a: a.words[1][0].count, 321),
         "--frictions": (("--frictions", 0.5, 0.6), lambda a: [e.material.friction for e in a.words[1][:2]], [0.5, 0.6]),
         "--seeds": (("--seeds", 7, 8), lambda a: a.words[2], [7, 8]),
@@ -658,6 +661,8 @@ def test_checks_are_listed(in_process):
         ("calibrate.py", ("--cohesion", 50e3, "--friction", 30, "--quick", "--fine", 900), "--fine 900 with --quick"),
         ("rocks.py", ("--seeds", 1), "--seeds 1: give 2 or more, each once"),
         ("rocks.py", ("--frictions", 0.3, 0.3), "--frictions 0.3 0.3: give 2 or more, each once"),
+        ("rocks.py", ("--add", "--seeds", 4, 5), "--add with 1000 disks and seeds 4 5: samples are compared"),
+        ("rocks.py", ("--add", "--check"), "not allowed with argument"),
         ("calibrate.py", ("--cohesion", 50e3, "--friction", 30, "--residual-friction", 20), "give both"),
         (
             "calibrate.py",
@@ -694,6 +699,7 @@ def test_checks_are_listed(in_process):
         ("wedge.py", ("--seconds", 0.5), "--seconds: 0.5 is too short"),
         ("benchmark.py", ("--threads", 0), "--threads 0"),
         ("benchmark.py", ("--scale", "10,10"), "each once"),
+        ("benchmark.py", ("--space", "--scale", "10"), "--space --scale: give one of them"),
         ("column.py", ("--aspect", "1,1"), "give each number once"),
         (
             "column.py",

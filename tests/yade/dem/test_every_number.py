@@ -17,9 +17,9 @@ import pytest
 from contact_scenes import G, begin, engine, floor, free_disk, material, run
 from shell import ROOT
 from soft_scenes import ROCK, WALL
-from yade import O, wrapper
+from yade import O, utils, wrapper
 from yade.minieigenHP import Vector3, Vector3i
-from yade.nonsmooth import scene, section, soft
+from yade.nonsmooth import scene, section, soft, space
 from yade.wrapper import (
     BondEllipseEngine,
     CourseRunner,
@@ -481,6 +481,43 @@ def arc_functor():
     return s
 
 
+# ---- in space
+
+
+def ball_on(kind):
+    """A ball at rest on a facet, a box or a wall; bonded where the material says so."""
+
+    def make(bond=False):
+        stuff = rough(tensileStrength=1e5, residualTensileStrength=10.0, bondsToAll=True, twistingFriction=0.1)
+        bed = O.bodies.append(
+            {
+                "Facet": lambda: utils.facet([(-9, -9, 0), (9, -9, 0), (0, 9, 0)], material=stuff),
+                "Box": lambda: utils.box((0, 0, -1), (9, 9, 1), fixed=True, material=stuff),
+                "Wall": lambda: utils.wall(0, axis=2, sense=1, material=stuff),
+            }[kind]()
+        )
+        low = O.bodies.append(utils.sphere((0, 0, 0.5), 0.5, material=stuff))
+        O.engines, O.dt = space.engines(gravity=(0, 0, -G), tolerance=1e-9), 1e-3
+        if bond:
+            run(1)
+            assert engine().bond() == 1
+        return looked(lambda: functor(f"Ig2_{kind}_Sphere_FaceGeom"), bed, [low])
+
+    return make
+
+
+for kind in ("Facet", "Box", "Wall"):
+    acts(f"Ig2_{kind}_Sphere_FaceGeom")(ball_on(kind))
+
+for where, bond in (("", False), (" of a bond", True)):
+
+    @acts("NscdSpacePhys" + where, before=False)
+    def contact_in_space(bond=bond):
+        s = ball_on("Wall")(bond)
+        s.target = lambda: O.interactions[s.bed, s.resting[0]].phys
+        return s
+
+
 # ---- springs
 
 STIFFNESS = 1e9
@@ -578,6 +615,7 @@ INHERITED = {
     "PlanarNewtonIntegrator": ("damping", "gravity", "mask"),
     "NscdPhys": ("tangensOfFrictionAngle", "normalForce", "shearForce", "kn", "ks"),
     "SlipWeakeningPhys": ("tangensOfFrictionAngle", "normalForce", "shearForce", "kn", "ks"),
+    "NscdSpacePhys": ("tangensOfFrictionAngle", "normalForce", "shearForce", "kn", "ks"),
     "WallPhys": ("tangensOfFrictionAngle", "normalForce", "shearForce"),
 }
 
@@ -812,7 +850,7 @@ def is_not_guided(s):
 def is_refused_with_a_bond(s):
     stays(s)
     s.target().bonded = True
-    with pytest.raises(RuntimeError, match=r"phys\.ellipse(Normal|Tangential) (-?nan|-1|0)"):
+    with pytest.raises(RuntimeError, match=r"phys\.ellipse(Normal|Tangential|Twisting) (-?nan|-1|0)"):
         run(1)
 
 
@@ -947,6 +985,9 @@ HARMLESS = {
     ("NscdMat", "residualFrictionAngle"): {-1: "as frictionAngle", 0: NO_FRICTION},
     ("NscdMat", "rollingFriction"): {0: NO_ROLLING},
     ("NscdMat", "residualRollingFriction"): {-1: "as rollingFriction", 0: NO_ROLLING},
+    ("NscdMat", "twistingFriction"): {0: NO_ROLLING},
+    ("NscdMat", "residualTwistingFriction"): {-1: "as twistingFriction", 0: NO_ROLLING},
+    ("NscdMat", "bondEllipseTwisting"): {-1: "twice the tangential half-axis", INF: NEVER_BREAKS, HUGE: NEVER_BREAKS},
     ("NscdMat", "bondEllipseNormal"): {INF: NEVER_BREAKS, HUGE: NEVER_BREAKS},
     ("NscdMat", "bondEllipseTangential"): {INF: NEVER_BREAKS, HUGE: NEVER_BREAKS},
     ("NscdMat", "bondCreationDistance"): {
@@ -984,6 +1025,10 @@ HARMLESS = {
     ("NscdPhys", "ks"): {0: AS_IT_IS},
     ("NscdPhys", "normalForce[0]"): {0: AS_IT_IS},
     ("NscdPhys", "normalForce[2]"): {0: AS_IT_IS},
+    ("NscdSpacePhys", "twistingArm"): {0: NO_ROLLING},
+    ("NscdSpacePhys", "residualTwistingArm"): {0: NO_ROLLING},
+    ("NscdSpacePhys", "normalForce[1]"): {0: AS_IT_IS},
+    ("NscdSpacePhys", "shearForce[0]"): {0: AS_IT_IS},
     ("NscdPhys", "shearForce[1]"): {0: AS_IT_IS},
     ("NscdPhys", "shearForce[2]"): {0: AS_IT_IS},
     # ---- walls
@@ -1031,12 +1076,14 @@ HARMLESS = {
 }
 for one in ("NscdMat", "SlipWeakeningMat"):
     HARMLESS[f"{one} of a soft wall", "density"] = dict.fromkeys((NAN, INF, -1, 0, HUGE), NO_MASS)
-for one in ("ellipseNormal", "ellipseTangential"):
-    HARMLESS["NscdPhys", one] = {
+ELLIPSES = (("NscdPhys", "ellipseNormal"), ("NscdPhys", "ellipseTangential"), ("NscdSpacePhys", "ellipseTwisting"))
+for kind, one in ELLIPSES:
+    HARMLESS[kind, one] = {
         **dict.fromkeys((NAN, -1, 0), ("without a bond nobody asks for it", is_refused_with_a_bond)),
         **dict.fromkeys((INF, HUGE), NEVER_BREAKS),
     }
-    HARMLESS["NscdPhys of a bond", one] = dict.fromkeys((NAN, -1, 0))
+    for of_bonds in {f"{kind} of a bond", "NscdSpacePhys of a bond"}:
+        HARMLESS[of_bonds, one] = dict.fromkeys((NAN, -1, 0))
 
 UNSEEN = (
     "an attribute of YADE's own, which leaves no mark when it is set, "

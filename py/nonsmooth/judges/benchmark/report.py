@@ -4,7 +4,9 @@ from __future__ import annotations
 
 from tabulate import tabulate
 
-__all__ = ["HEADLINES", "scale_table", "summarise", "table"]
+from . import spheres
+
+__all__ = ["HEADLINES", "scale_table", "space_table", "summarise", "table"]
 
 #: Headline figures, by their keys one in the other, and what each is; medians where there is a distribution. Steps are
 #: of the slope at rest, with as many threads as were asked for.
@@ -178,3 +180,21 @@ def scale_table(found) -> str:
         "cold sweeps to 1e-4",
     )
     return tabulate(rows, heads, disable_numparse=True)
+
+
+def space_table(found) -> str:
+    """Tables of text of what spheres.headlines found: headlines, and sweeps by path."""
+    rows = [(what, _number(found[name])) for name, what in spheres.HEADLINES.items()]
+    over = found["speedup_over_reference"]
+    paths = [
+        (name.replace("_", " "), _with_quartiles(s), _with_quartiles(over[name]) if name in over else "-")
+        for name, s in found["ns_per_contact"].items()
+    ]
+    return "\n\n".join(
+        [
+            tabulate(rows, disable_numparse=True),
+            tabulate(paths, ("sweep", "ns a contact", "over reference"), disable_numparse=True),
+            f"{found['spheres']} spheres, {found['contacts']} contacts of {found['bytes_per_contact']:.0f} bytes; "
+            f"{found['contacts_plane']} in the plane; the cold start carries {found['share_of_weight']:.3f} of the weight",
+        ]
+    )

@@ -1,0 +1,14 @@
+// Compiled with -mavx2 (CMakeLists.txt); empty elsewhere.
+#ifdef __AVX2__
+#include "kernels.inc"
+
+namespace nonsmooth::contact::space {
+
+const BlockKernels& avx2Kernels()
+{
+	static const BlockKernels kernels = kernelsOf("avx2");
+	return kernels;
+}
+
+} // namespace nonsmooth::contact::space
+#endif

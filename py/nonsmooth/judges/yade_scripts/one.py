@@ -1,0 +1,87 @@
+"""One script in a process of its own, bounded in steps, and what became of it."""
+
+from __future__ import annotations
+
+import json
+import os
+import re
+import shutil
+import subprocess
+import tempfile
+from pathlib import Path
+
+from ...system import installation
+
+__all__ = ["OUTCOMES", "run"]
+
+#: What can become of a script.
+OUTCOMES = ("runs", "overlaps", "refused", "lacks", "stopped", "fails")
+MOST_OVERLAP = 0.01  # radii, of a script that "runs"
+_REFUSALS = (
+    "HardenError",
+    "ContactDynamicsEngine:",
+    "NscdInteractionLoop:",
+    "PlanarGridCollider:",
+    "PlanarNewtonIntegrator:",
+)
+_RESULT = "NONSMOOTH_HARD_RESULT"
+
+
+def run(script, sources, how="hard", steps=None, time=None, limit=120):
+    """Runs ``script`` (its path in the folder ``sources``) in a copy of its folder; a dictionary of
+
+    ``outcome``: one of OUTCOMES, ``message``: of a refusal or an error, ``found``: numbers at its end, where it got so
+    far. ``how``: "hard" or "soft"; ``steps``: most steps, ``time``: most simulated time [s]; ``limit``: wall time [s].
+    """
+    home = Path(sources) / script
+    hard_script = _hard_script()
+    with tempfile.TemporaryDirectory() as folder:
+        place = Path(folder) / "scripts"
+        shutil.copytree(home.parent, place)
+        result = Path(folder) / "result.json"
+        words = ["--how", how, "--time", "" if time is None else repr(time)]
+        words += [] if steps is None else ["--steps", str(steps)]
+        words += (
+            ["--keep-step"] if "checks" in home.parts else []
+        )  # they compare numbers at the times of their own steps
+        command = [*installation.command(1), str(hard_script), *words, "--", home.name]
+        environment = {**os.environ, _RESULT: str(result), "MPLBACKEND": "Agg", "OMP_WAIT_POLICY": "passive"}
+        try:
+            done = subprocess.run(
+                command,
+                cwd=place,
+                env=environment,
+                stdin=subprocess.DEVNULL,
+                timeout=limit,
+                capture_output=True,
+                text=True,
+                errors="replace",
+            )
+            said, status = f"{done.stdout}\n{done.stderr}", done.returncode
+        except subprocess.TimeoutExpired:
+            return {"script": script, "outcome": "stopped", "message": f"after {limit} s of wall time", "found": None}
+        found = json.loads(result.read_text()) if result.exists() else None
+    message = _last_error(said)
+    if status == 0 and found:
+        outcome, message = "runs" if found["largest overlap [radii]"] < MOST_OVERLAP else "overlaps", ""
+    elif any(name in message for name in _REFUSALS):
+        outcome = "refused"
+    else:
+        outcome, message = "fails", message or f"status {status}"
+        # what the script asks for and this YADE or this machine has not, whatever its contacts
+        if how == "hard" and run(script, sources, "soft", steps=1, time=time, limit=limit)["message"] == message:
+            outcome = "lacks"
+    return {"script": script, "outcome": outcome, "message": message, "found": found}
+
+
+def _hard_script():
+    for above in Path(__file__).resolve().parents:
+        if (above / "scripts" / "hard_script.py").exists():
+            return above / "scripts" / "hard_script.py"
+    raise FileNotFoundError("scripts/hard_script.py stands in the checkout, which this package is not in")
+
+
+def _last_error(text):
+    """The last line of a traceback, without the class's module."""
+    lines = [line for line in text.strip().split("\n") if re.match(r"[\w.]*(Error|Exception|Warning|Exit)\b", line)]
+    return re.sub(r"^[\w.]*\.(?=\w+(Error|Exception))", "", lines[-1]) if lines else ""

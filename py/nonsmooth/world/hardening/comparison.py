@@ -1,0 +1,127 @@
+"""A soft script run as it is and with rigid contacts, each in a process, and what both took beside each other."""
+
+from __future__ import annotations
+
+import argparse
+import json
+import os
+import subprocess
+import sys
+import tempfile
+
+from tabulate import tabulate
+
+from yade.wrapper import NewtonIntegrator, Sphere
+
+from .error import HardenError
+from .script import Watch, stand_ins
+
+__all__ = ["asked", "begin", "both", "end", "stand_ins"]
+
+_RESULT = "NONSMOOTH_HARD_RESULT"  # the file to which a run of two writes what it took
+
+
+def asked(argv):
+    """The launcher's options, the script, and the arguments that are its own."""
+    at = argv.index("--")
+    parser = argparse.ArgumentParser(prog="yade-nonsmooth", add_help=False)
+    parser.add_argument("--how", choices=("hard", "both", "soft"))
+    parser.add_argument("--time", default="")
+    parser.add_argument("--steps", type=int)
+    parser.add_argument("--keep-step", action="store_true")
+    how = parser.parse_args(argv[1:at])
+    try:
+        how.time = float(how.time) if how.time else None
+    except ValueError:
+        how.time = -1.0
+    if how.time is not None and not 0 < how.time < float("inf"):
+        parser.error("--time: give a simulated time [s], positive and finite")
+    how.both = how.how == "both"
+    return how, argv[at + 1], argv[at + 1 :]
+
+
+def begin(how):
+    """Watches the script's runs from here on."""
+    return Watch(
+        hard=how.how == "hard",
+        most=how.time,
+        most_steps=how.steps,
+        options=dict(step="soft") if how.keep_step else None,
+    ).install()
+
+
+def end(how, watch, O):
+    """After the script: makes the steps that it has left to a window's button, where a time is asked for, and tells what
+    all took."""
+    if ((how.time is not None and O.time < how.time) or (how.steps is not None and not watch.steps)) and O.engines:
+        O.run(-1, True)
+    if not watch.steps and how.how == "hard" and watch.hardened is None:
+        raise HardenError("the script makes no steps: give --time, the simulated time [s] for which it is to run")
+    found = {
+        "wall time [s]": watch.wall,
+        "simulated [s]": O.time,
+        "steps": watch.steps,
+        "step [s]": O.dt,
+        "kinetic energy [J]": sum(
+            0.5 * b.state.mass * b.state.vel.squaredNorm() for b in O.bodies if b is not None and b.dynamic
+        ),
+        "largest overlap [radii]": _largest_overlap(O),
+        "contacts": O.interactions.countReal(),
+        **_heights(O),
+    }
+    path = os.environ.get(_RESULT)
+    if path:
+        with open(path, "w") as result:
+            json.dump(found, result)
+    else:
+        print(tabulate(found.items(), floatfmt=".4g"))
+
+
+def _heights(O):
+    """Where the spheres are against gravity, and how they press on what does not move."""
+    gravity = [e.gravity for e in O.engines if isinstance(e, NewtonIntegrator) and not e.dead]
+    balls = [b for b in O.bodies if b is not None and isinstance(b.shape, Sphere) and b.dynamic]
+    if not gravity or not gravity[0].norm() or not balls:
+        return {}
+    up = -gravity[0].normalized()
+    heights = [up.dot(b.state.pos) for b in balls]
+    held = sum(-up.dot(O.forces.f(b.id)) for b in O.bodies if b is not None and not b.dynamic)
+    weight = sum(b.state.mass for b in balls) * gravity[0].norm()
+    return {
+        "mean height [m]": sum(heights) / len(heights),
+        "highest [m]": max(heights),
+        "weight held [share]": held / weight if weight > 0 else 0,
+    }
+
+
+def _largest_overlap(O):
+    """In radii of the smaller sphere, of all contacts at the end of the run."""
+    deepest = 0.0
+    for i in O.interactions:
+        if i.isReal and i.geom is not None:
+            least = min(r for r in (i.geom.refR1, i.geom.refR2) if r > 0)
+            deepest = max(deepest, i.geom.penetrationDepth / least)
+    return deepest
+
+
+def both(how, path, argv):
+    """Runs the script soft, then hard, and prints both; returns the exit status."""
+    launcher = os.path.join(os.environ["YADE_PREFIX"], "bin", "yade")
+    here = os.path.abspath(sys.modules["__main__"].__dict__.get("__file__", ""))
+    rows, status = {}, 0
+    for kind in ("soft", "hard"):
+        with tempfile.TemporaryDirectory() as folder:
+            result = os.path.join(folder, "result.json")
+            words = ["--how", kind, "--time", "" if how.time is None else repr(how.time), "--", path, *argv[1:]]
+            threads = os.environ.get("OMP_NUM_THREADS", "1")
+            done = subprocess.run(
+                [launcher, "-n", "-x", f"-j{threads}", "--", here, *words], env={**os.environ, _RESULT: result}
+            )
+            status = status or done.returncode
+            if os.path.exists(result):
+                with open(result) as file:
+                    rows[kind] = json.load(file)
+    names = list(dict.fromkeys(name for row in rows.values() for name in row))
+    table = [[name, *(rows.get(kind, {}).get(name, "") for kind in ("soft", "hard"))] for name in names]
+    print(tabulate(table, headers=["", "soft", "hard"], floatfmt=".4g"))
+    return status

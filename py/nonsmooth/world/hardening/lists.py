@@ -1,0 +1,169 @@
+"""O.engines of springs, turned into those of rigid contacts."""
+
+from __future__ import annotations
+
+from yade.wrapper import (
+    Arc,
+    Bo1_Arc_Aabb,
+    Bo1_Segment_Aabb,
+    Bo1_Sphere_Aabb,
+    Collider,
+    ContactDynamicsEngine,
+    DomainLimiter,
+    ForceResetter,
+    Ig2_Arc_Sphere_ScGeom,
+    Ig2_Segment_Sphere_ScGeom,
+    InsertionSortCollider,
+    InteractionLoop,
+    Ip2_NscdMat_NscdMat_NscdPhys,
+    Law2_ScGeom_NscdPhys_SignoriniCoulomb,
+    NewtonIntegrator,
+    NscdInteractionLoop,
+    PlanarGridCollider,
+    PlanarNewtonIntegrator,
+    PyRunner,
+    Segment,
+    Sphere,
+    TimeStepper,
+)
+
+from .. import space
+from .error import HardenError
+
+__all__ = ["hard_engines", "loop_of", "newton_of"]
+
+# laws of springs, friction and damping between spheres; a law that is no contact of grains has no rigid counterpart
+_LAWS = (
+    "Law2_ScGeom_FrictPhys_CundallStrack",
+    "Law2_ScGeom6D_CohFrictPhys_CohesionMoment",
+    "Law2_ScGeom_ViscElPhys_Basic",
+    "Law2_ScGeom_ViscoFrictPhys_CundallStrack",
+    "Law2_ScGeom_MindlinPhys_Mindlin",
+    "Law2_ScGeom_MindlinPhys_MindlinDeresiewitz",
+    "Law2_ScGeom_MindlinPhys_HertzWithLinearShear",
+    "Law2_ScGeom_NscdPhys_SignoriniCoulomb",
+)
+_SHAPES = {
+    **space.SHAPES,
+    Segment: (Bo1_Segment_Aabb, Ig2_Segment_Sphere_ScGeom),
+    Arc: (Bo1_Arc_Aabb, Ig2_Arc_Sphere_ScGeom),
+}
+_REACH = 0.05  # ℓ
+
+
+def loop_of(engines):
+    """The InteractionLoop that runs; raises HardenError where there is none, or its law has no rigid counterpart."""
+    loops = [e for e in engines if isinstance(e, InteractionLoop) and not e.dead]
+    if not loops:
+        raise HardenError(
+            "O.engines has no InteractionLoop, so that nothing says which contacts the scene has: set O.engines as for soft contacts, then call harden()"
+        )
+    for law in loops[0].lawDispatcher.functors:
+        if type(law).__name__ not in _LAWS:
+            raise HardenError(
+                f"{type(law).__name__} has no rigid counterpart: harden() takes frictional, visco-elastic, cohesive-frictional and Mindlin contacts of spheres ({', '.join(_LAWS[:-1])})"
+            )
+    return loops[0]
+
+
+def newton_of(engines):
+    """The NewtonIntegrator that runs; raises HardenError where there is not one of them, or it moves a part of the bodies
+    alone."""
+    newtons = [e for e in engines if isinstance(e, NewtonIntegrator) and not e.dead]
+    if len(newtons) != 1:
+        raise HardenError(
+            f"O.engines has {len(newtons) or 'no'} NewtonIntegrator{'s' * (len(newtons) > 1)}, which moves rigid bodies: put one in, in the place of another integrator"
+        )
+    if newtons[0].mask > 0:
+        raise HardenError(
+            f"NewtonIntegrator.mask = {newtons[0].mask}: the solver takes bodies outside of the mask for moving; set mask = -1 and block the DOFs of bodies that must stay"
+        )
+    return newtons[0]
+
+
+def hard_engines(engines, shapes, in_plane, options):
+    """The list for rigid contacts, in the order of ``engines``, and rows (what, became) for the table.
+
+    ``shapes``: classes of the shapes in the scene; ``in_plane``: whether all that moves stays in the x-y plane;
+    ``options``: attributes of ContactDynamicsEngine. Raises HardenError for a shape that nothing rigid can touch, and
+    for an integrator that is none of YADE's usual one.
+    """
+    unknown = sorted(kind.__name__ for kind in shapes if kind not in _SHAPES)
+    if unknown:
+        raise HardenError(
+            f"bodies have the shapes {', '.join(unknown)}, which rigid spheres cannot touch yet: harden() takes {', '.join(kind.__name__ for kind in _SHAPES)}; set bounded = False for what nothing is to touch"
+        )
+    kinds = [kind for kind in _SHAPES if kind in shapes or kind is Sphere]
+    newton = newton_of(engines)
+    made, rows = [], []
+    if not any(isinstance(e, ForceResetter) for e in engines):
+        made.append(ForceResetter())
+    for engine in engines:
+        name = type(engine).__name__
+        if isinstance(engine, TimeStepper):
+            rows.append((name, "dropped: the step of rigid contacts does not depend on stiffness"))
+        elif isinstance(engine, Collider):
+            made.append(_collider(engine, kinds, in_plane))
+            rows.append((name, f"{type(made[-1]).__name__}, which sees open gaps of {_REACH:g} ℓ"))
+        elif isinstance(engine, InteractionLoop):
+            made.append(_loop(engine, kinds))
+            laws = ", ".join(type(law).__name__ for law in engine.lawDispatcher.functors)
+            rows.append((f"{name} ({laws})", "NscdInteractionLoop (Law2_ScGeom_NscdPhys_SignoriniCoulomb)"))
+        elif isinstance(engine, DomainLimiter):
+            made.append(_limiter(engine))
+            rows.append((name, "PyRunner, which erases the same bodies"))
+        elif engine is newton:
+            damping = engine.damping
+            made += [
+                ContactDynamicsEngine(
+                    label=options.get("label", "contactDynamics"), **{k: v for k, v in options.items() if k != "label"}
+                ),
+                _integrator(engine, in_plane),
+            ]
+            rows.append(
+                (
+                    f"{name} (damping = {damping:g})",
+                    f"ContactDynamicsEngine and {type(made[-1]).__name__} (damping = 0)",
+                )
+            )
+        else:
+            made.append(engine)
+    return made, rows
+
+
+def _collider(old, kinds, in_plane):
+    # a wall knows a sphere up to 2 reach of its radii, see Ig2_Facet_Sphere_FaceGeom.interactionDetectionFactor
+    bounds = [Bo1_Sphere_Aabb(aabbEnlargeFactor=1 + (1 if in_plane else 2) * _REACH)] + [
+        _SHAPES[k][0]() for k in kinds[1:]
+    ]
+    if in_plane:
+        return PlanarGridCollider(bounds, verletDist=-0.2, label=old.label)
+    return InsertionSortCollider(bounds, label=old.label, avoidSelfInteractionMask=old.avoidSelfInteractionMask)
+
+
+def _loop(old, kinds):
+    return NscdInteractionLoop(
+        [_SHAPES[kind][1](interactionDetectionFactor=1 + _REACH) for kind in kinds],
+        [Ip2_NscdMat_NscdMat_NscdPhys()],
+        [Law2_ScGeom_NscdPhys_SignoriniCoulomb(reach=_REACH)],
+        label=old.label,
+    )
+
+
+def _integrator(old, in_plane):
+    if in_plane:
+        return PlanarNewtonIntegrator(damping=0, gravity=old.gravity, label=old.label)
+    old.damping = 0
+    return old
+
+
+def _limiter(old):
+    """DomainLimiter ends the process where it erases a body that Python has made."""
+    command = f"from yade.nonsmooth.world.hardening import domain as _d; _d.limit({tuple(old.lo)}, {tuple(old.hi)}, {old.mask})"
+    return PyRunner(
+        command=command,
+        iterPeriod=old.iterPeriod,
+        virtPeriod=old.virtPeriod,
+        realPeriod=old.realPeriod,
+        label=old.label,
+    )

@@ -1,0 +1,39 @@
+"""Spheres in space on YADE's side, bonds there, facets that meet, and scripts that go hard."""
+from mutant import mutant
+
+SEAM, BOND, LAW = "pkg/dem/space/SpaceSeam.cpp", "pkg/dem/space/SpaceBond.cpp", "pkg/contact/space/bond.hpp"
+FACE, JOINTS, NEAR, PHYS = "pkg/dem/space/FaceGeom.cpp", "pkg/dem/space/FaceJoints.cpp", "pkg/contact/space/nearest.hpp", "pkg/dem/space/NscdSpacePhys.cpp"
+HARD = "py/nonsmooth/world/hardening"
+SPACE, HARDENING = "test_space.py", "test_hardening.py"
+
+MUTANTS = (
+    mutant("space-gap", SEAM, "!phys.bonded && link.gap > 0 ? link.gap / h : 0", "0", "a sphere stops above its floor", SPACE + "::test_two_balls_meet_with_restitution"),
+    mutant("space-bounce", SEAM, "c.biasN = phys.restitution * approach;", ";", "impacts in space have no restitution", SPACE + "::test_two_balls_meet_with_restitution"),
+    mutant("space-aside", SEAM, "aside                 = acrossNormal(c.n, a);", "aside                 = {};", "a floor that turns does not lift what lies far from its axis",
+           SPACE + "::test_a_floor_that_turns_about_an_axis_far_away_moves_as_its_points_do"),
+    mutant("space-order", SEAM, "both ? id1 > id2 : bodies[id1].radius > 0", "false", "a contact runs as YADE happens to keep it", SPACE + "::test_the_same_bits_on_any_number_of_threads_and_after_loading"),
+    mutant("space-shear-work", SEAM, "shearWork = 0.5 * dot(rows.t, u0.t + u1.t)", "shearWork = dot(rows.t, u1.t)", "sliding loses what it loses at the end of the step", SPACE + "::test_energy_is_accounted_for"),
+    mutant("space-moment-work", SEAM, "0.5 * dot(p.m, u0.w + u1.w)", "0", "rolling and twisting lose nothing", SPACE + "::test_energy_is_accounted_for"),
+    mutant("space-reaction", SEAM, "rj.w + (c.leverJ * turn + cross(c.asideJ, p.f) + p.m)", "rj.w + (c.leverJ * turn + cross(c.asideJ, p.f))", "O.forces has no torque of rolling resistance",
+           SPACE + "::test_rolling_resistance_stops_a_ball_that_rolls"),
+    mutant("space-bond-shear", LAW, "if (path.shear > bound) return BreakMode::Shear;", "", "what was sheared is a mixed break", SPACE + "::test_a_bonded_pair_that_is_sheared_breaks_in_shear"),
+    mutant("space-bond-twist-axis", LAW, "s = d.twist / zone.twisting", "s = 0", "a twist breaks no bond", SPACE + "::test_a_bond_that_is_overloaded_breaks_in_the_mode_of_its_load"),
+    mutant("space-bond-twist-sign", BOND, "angle / length * sine.dot(phys.axis)", "angle / length * sine.norm()", "a roll counts as a twist", SPACE + "::test_a_roll_is_no_twist"),
+    mutant("space-bond-path", SEAM, "phys.twistingPath += y.twisting;", "", "what was twisted off is a mixed break", SPACE + "::test_a_bond_that_is_overloaded_breaks_in_the_mode_of_its_load"),
+    mutant("space-area", PHYS, "*force *= areaOf(length) / length;", "*force *= 1;", "a bond in space is as strong as a metre of one in the plane", SPACE + "::test_a_bond_bears_its_threshold_and_no_more"),
+    mutant("space-twisting-arm", PHYS, "twistingArm         = length", "twistingArm         = 0.5 * length", "a bond bears half of its twisting torque", SPACE + "::test_a_bond_bears_its_threshold_and_no_more"),
+    mutant("space-residual-twisting", PHYS, "bonded ? twistingArm : residualTwistingArm", "twistingArm", "without a bond the peak's twisting friction holds", SPACE + "::test_without_a_bond_the_residual_twisting_friction_holds"),
+    mutant("faces-owner", JOINTS, "if (other.id < own.id) return false;", "", "a ridge has two contacts", SPACE + "::test_a_ball_on_a_ridge_has_one_contact_and_in_a_groove_two"),
+    mutant("faces-goes-on", JOINTS, "there.feature == space::Nearest::Face || ", "", "a ball feels the edges of a floor of facets", SPACE + "::test_facets_that_lie_in_one_plane_are_one_floor"),
+    mutant("faces-lost", "pkg/dem/Law2_ScGeom_NscdPhys_SignoriniCoulomb.cpp", "(face && !face->owned)", "false", "a contact stays at the facet that the ball has left",
+           SPACE + "::test_facets_that_lie_in_one_plane_are_one_floor"),
+    mutant("faces-edge", NEAR, "within ? from + s * along : s <= 0 ? from : t.at(k + 1)", "s <= 0 ? from : t.at(k + 1)", "an edge is its two ends", SPACE + "::test_a_ball_on_a_ridge_has_one_contact_and_in_a_groove_two"),
+    mutant("harden-cohesion", HARD + "/strengths.py", "per_area = 1 / math.pi if disk_radius is None", "per_area = 1 if disk_radius is None", "cohesion in space acts on a radius squared",
+           HARDENING + "::test_a_material_keeps_its_strengths"),
+    mutant("harden-rolling", HARD + "/strengths.py", "0.5 * max(0.0, soft.etaRoll)", "max(0.0, soft.etaRoll)", "rolling resistance is twice YADE's", HARDENING + "::test_a_material_keeps_its_strengths"),
+    mutant("harden-fall", HARD + "/steps.py", "math.sqrt(2 * g * fall)", "0", "the step forgets that spheres fall", HARDENING + "::test_the_step_is_a_tenth_of_the_smallest_diameter_at_the_greatest_speed"),
+    mutant("harden-period", HARD + "/scene.py", "engine.iterPeriod = max(1, round(period / step))", "pass", "engines act a hundred times too seldom", HARDENING + "::test_engines_act_after_the_same_time"),
+    mutant("harden-functor", HARD + "/strengths.py", "restitution=restitution or 0", "restitution=0", "the functor's restitution is lost", HARDENING + "::test_restitution_comes_from_the_functor_or_the_caller"),
+    mutant("harden-time", HARD + "/script.py", "max(1, round(steps * self._soft_step / omega.dt))", "steps", "a script's number of steps is taken for rigid ones", HARDENING + "::test_both_ways_are_told_beside_each_other"),
+    mutant("harden-later", HARD + "/script.py", "self.hardened.take(omega.bodies)", "pass", "bodies that a script adds stay soft", HARDENING + "::test_a_script_runs_hard_as_it_is"),
+)
