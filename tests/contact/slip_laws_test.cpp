@@ -12,7 +12,7 @@ namespace {
 
 double left(const char* law, double slip, double critical) { return makeBySlip(law, critical)->left(slip); }
 
-TEST(SlipWeakening, StepKeepsAllThenNothing)
+TEST(SlipLaws, StepKeepsAllThenNothing)
 {
 	EXPECT_EQ(left("step", 0, 5), 1);
 	EXPECT_EQ(left("step", std::nextafter(5, 0), 5), 1);
@@ -20,7 +20,7 @@ TEST(SlipWeakening, StepKeepsAllThenNothing)
 	EXPECT_EQ(left("step", 50, 5), 0);
 }
 
-TEST(SlipWeakening, LinearAndExponential)
+TEST(SlipLaws, LinearAndExponential)
 {
 	EXPECT_EQ(left("linear", 0, 4), 1);
 	EXPECT_DOUBLE_EQ(left("linear", 1, 4), 0.75);
@@ -30,7 +30,7 @@ TEST(SlipWeakening, LinearAndExponential)
 	EXPECT_DOUBLE_EQ(left("exponential", 4, 4), std::exp(-1));
 }
 
-TEST(SlipWeakening, RefusesWhatItDoesNotKnow)
+TEST(SlipLaws, RefusesWhatItDoesNotKnow)
 {
 	EXPECT_THROW(makeBySlip("linear", 0), std::invalid_argument);
 	EXPECT_THROW(makeBySlip("linear", -1), std::invalid_argument);
@@ -44,7 +44,7 @@ TEST(SlipWeakening, RefusesWhatItDoesNotKnow)
 	}
 }
 
-TEST(SlipWeakening, CellsFallFromFrictionToWhatIsLeft)
+TEST(SlipLaws, CellsFallFromFrictionToWhatIsLeft)
 {
 	const auto law = makeLaw(
 	        { "linear" },

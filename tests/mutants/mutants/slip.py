@@ -8,14 +8,14 @@ BLOCK, SETS, FIGURE = ("py/nonsmooth/slip/block.py", "py/nonsmooth/slip/paramete
 
 MUTANTS = (
     # ---- functions of slip
-    mutant("slip-linear", SLIP + "linear.hpp", "slip[k] < critical ? 1 - slip[k] / critical : 0", "slip[k] < critical ? slip[k] / critical : 0",
-           "linear weakening begins with nothing", "gtest:SlipWeakening.*"),
-    mutant("slip-step", SLIP + "step.hpp", "slip[k] < critical ? 1 : 0", "slip[k] <= critical ? 1 : 0", "strength is there at D_c still",
-           "gtest:SlipWeakening.*"),
-    mutant("slip-exponential", SLIP + "exponential.hpp", "std::exp(-slip[k] / critical)", "std::exp(-slip[k])", "an exponential law does not know D_c",
-           "gtest:SlipWeakening.*"),
+    mutant("slip-law-linear", SLIP + "linear.hpp", "slip[k] < critical ? 1 - slip[k] / critical : 0", "slip[k] < critical ? slip[k] / critical : 0",
+           "linear weakening begins with nothing", "gtest:SlipLaws.*"),
+    mutant("slip-law-step", SLIP + "step.hpp", "slip[k] < critical ? 1 : 0", "slip[k] <= critical ? 1 : 0", "strength is there at D_c still",
+           "gtest:SlipLaws.*"),
+    mutant("slip-law-exponential", SLIP + "exponential.hpp", "std::exp(-slip[k] / critical)", "std::exp(-slip[k])", "an exponential law does not know D_c",
+           "gtest:SlipLaws.*"),
     mutant("slip-what-is-left", SLIP + "by_slip.cpp", "weakened + (friction - weakened) * share[k]", "friction * share[k]",
-           "nothing is left of friction in the end", "gtest:SlipWeakening.*"),
+           "nothing is left of friction in the end", "gtest:SlipLaws.*"),
     # ---- a zone that heats
     mutant("slip-half-zone", ZONE, "1 / (heatCapacity * width())", "2 / (heatCapacity * width())", "all heat goes into one half of the zone",
            "check:adiabatic-block", "gtest:SlipPressurization.*"),
@@ -51,7 +51,7 @@ MUTANTS = (
            "check:melt-to-steady"),
     mutant("slip-melt-grip", MELT, "std::min(grip, viscosityAt(slipRate) * slipRate / thickness)", "viscosityAt(slipRate) * slipRate / thickness",
            "a thin layer of melt resists without a limit", "gtest:SlipMelting.*"),
-    mutant("slip-melt-excess", ZONE, "excess += 2 * mesh.width[k] * heatCapacity", "excess += mesh.width[k] * heatCapacity", "heat is lost where the zone melts",
+    mutant("slip-melt-excess", ZONE, "2 * mesh.width[k] * heatCapacity * (s.temperature[k] - melt.temperature)", "mesh.width[k] * heatCapacity * (s.temperature[k] - melt.temperature)", "heat is lost where the zone melts",
            "gtest:SlipMelting.*"),
     mutant("slip-table-log", TABLE, "slipRate > 0 ? std::log(slipRate) : logs.front()", "slipRate", "a table is read at the velocity for its logarithm",
            "gtest:SlipTable.*", "check:tabulated-friction"),
