@@ -38,11 +38,11 @@ def arguments():
 
 def chosen(checks, args):
     """The checks to run; ends with a message where a name is unknown."""
-    known = {c.name for c in checks} | {module_of(c) for c in checks}
+    known = {c.name for c in checks} | {c.group for c in checks}
     for name in args.only or ():
         if name not in known:
             sys.exit(f"error: --only {name}: there is no such check; --list names them")
-    wanted = [c for c in checks if not args.only or c.name in args.only or module_of(c) in args.only]
+    wanted = [c for c in checks if not args.only or c.name in args.only or c.group in args.only]
     return [c for c in wanted if not args.quick or args.only or c.quick_seconds is not None]
 
 
@@ -51,15 +51,11 @@ def at_hand(checks):
     try:
         siconos_solve.program()
     except siconos_solve.OracleError as error:
-        left = [c.name for c in checks if module_of(c) == "siconos"]
+        left = [c.name for c in checks if c.group == "siconos"]
         if left:
             print(f"left out, as Siconos is missing: {', '.join(left)} ({error})")
         return [c for c in checks if c.name not in left]
     return checks
-
-
-def module_of(check):
-    return check.run.__module__.rsplit(".", 1)[-1]
 
 
 def main():
@@ -68,7 +64,7 @@ def main():
     if args.list:
         for c in checks:
             quick = "-" if c.quick_seconds is None else f"{c.quick_seconds:.0f} s"
-            print(f"{module_of(c):14s} {c.name:34s} {c.seconds:5.0f} s, quick {quick:6s} {c.title}")
+            print(f"{c.group:14s} {c.name:34s} {c.seconds:5.0f} s, quick {quick:6s} {c.title}")
         return
     checks, out = at_hand(chosen(checks, args)), Path(args.out)
     output_folder.claim(out, "verify.py", args.resume)

@@ -3,6 +3,7 @@
 #include "../Arc.hpp"
 #include "../PlanarGridCollider.hpp"
 #include "../PlanarNewtonIntegrator.hpp"
+#include "../Gravity.hpp"
 #include "../Refusal.hpp"
 #include "../SceneCheck.hpp"
 #include <contact/space/bond.hpp>
@@ -43,7 +44,13 @@ bool isInSpace(const Scene& scene, const std::vector<BodyReading>& bodies)
 	const auto         free = std::find_if(bodies.begin(), bodies.end(), [](const BodyReading& b) {
                 return b.present && b.radius > 0 && b.blocked != State::DOF_ALL && (b.blocked & out) != out;
         });
-	if (free == bodies.end()) return false;
+	if (free == bodies.end()) { // where no sphere is there yet, gravity tells
+		const bool     empty = std::none_of(bodies.begin(), bodies.end(), [](const BodyReading& b) {
+                        return b.present && b.radius > 0;
+                });
+		const Vector3r g     = gravityOf(scene);
+		return empty && g[2] != 0 && std::isfinite(g[2]);
+	}
 	return std::none_of(scene.bodies->begin(), scene.bodies->end(), [](const shared_ptr<Body>& b) {
 		const Shape* shape = b ? b->shape.get() : nullptr;
 		return dynamic_cast<const Segment*>(shape) || dynamic_cast<const Arc*>(shape);

@@ -1,4 +1,6 @@
-"""Figures of a search for the factor of safety: displacements against the factor, and the failing mass."""
+"""Figures of searches for the factor of safety: displacements against the factor, the failing mass, and factors against
+the number of disks.
+"""
 
 import numpy as np
 from matplotlib import colormaps
@@ -12,9 +14,11 @@ from ..records import RecordsError
 from . import given, style
 from .style import INK
 
-__all__ = ["displacements", "failing_mass_on_section"]
+__all__ = ["by_disks", "displacements", "failing_mass_on_section"]
 
 STOOD, FAILED, BRACKET, STAYS = "#2c6fae", "#b5341c", "#f0e2c4", "#d9d3c6"
+SLOPES = ("#2c6fae", "#b5341c", "#4f7d3a")
+APART = 1.05  # by which dots of slopes with as many disks stand apart
 MARGIN = 0.12  # around the disks, of their extent
 KINDS = {"stable": ("o", STOOD, "came to rest"), "failed": ("X", FAILED, "failed")}
 
@@ -107,4 +111,34 @@ def failing_mass_on_section(before, after, walls, title="", path=None, pdf=False
     fig.legend(handles=handles, loc="upper right", ncol=2, frameon=False)
     if title:
         fig.text(0.015, 1 - 0.12 / (height + top), style.plain(title), va="top", fontsize=11, color=INK)
+    return style.save(fig, path, pdf)
+
+
+@given.takes(found=given.ROWS)
+@style.styled
+def by_disks(found, path=None, pdf=False):
+    """Factors of safety over published ones against the number of disks: a dot for each packing, a line through the
+    means, and a band of a tenth around 1.
+
+    ``found``: a dictionary for each slope with its ``label``, the ``published`` factor, ``disks``, numbers, and
+    ``factors``, for each of these numbers a list of those of its packings.
+    """
+    fig = style.figure(6.4, 4.2)
+    ax = fig.add_axes([0.12, 0.14, 0.85, 0.74])
+    ax.axhspan(0.9, 1.1, color=BRACKET, lw=0, zorder=0)
+    ax.axhline(1.0, color=INK, lw=0.8, zorder=1)
+    for k, one in enumerate(found):
+        colour = SLOPES[k % len(SLOPES)]
+        at = np.array(one["disks"], float) * APART ** (k - 0.5 * (len(found) - 1))
+        over = [np.array(factors, float) / one["published"] for factors in one["factors"]]
+        for x, values in zip(at, over):
+            ax.plot(np.full(len(values), x), values, "o", color=colour, mfc="white", ms=5, zorder=3)
+        ax.plot(at, [values.mean() for values in over], "s-", color=colour, ms=6, lw=1.2, zorder=2, label=one["label"])
+    ax.set_xscale("log")
+    ticks = sorted({n for one in found for n in one["disks"]})
+    ax.set_xticks(ticks, [f"{n:,}" for n in ticks], minor=False)
+    ax.set_xticks([], minor=True)
+    ax.set(xlabel="disks", ylabel="factor of safety over the published one")
+    ax.grid(axis="y", color="#e3e3e3", lw=0.7)
+    fig.legend(loc="upper center", ncol=len(found), frameon=False, fontsize=8.5)
     return style.save(fig, path, pdf)

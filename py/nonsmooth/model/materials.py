@@ -13,12 +13,12 @@ import yaml
 
 from ..system import checks
 from ..system.whole_files import write_atomically
-from . import section
+from . import rocks, section
 from .section import building as section_building, units as section_units, values as section_values
 from .section.folder import SCHEMA
 from .section.reader import Document, SectionError, read
 
-__all__ = ["QUANTITIES", "REDUCED", "SHIPPED", "bare", "data", "divided", "load", "of", "save", "smooth"]
+__all__ = ["ENVELOPE", "QUANTITIES", "REDUCED", "SHIPPED", "bare", "data", "divided", "load", "of", "save", "smooth"]
 
 #: Names of the paper's Table 1, with the materials of the shipped section that hold their parameters.
 SHIPPED = {"wwr": "rock", "dp": "dp", "fb": "fb", "ss": "ss"}
@@ -74,8 +74,10 @@ def smooth(material):
     return dataclasses.replace(material, bonded=False, **none)
 
 
+#: The strength of samples, which :func:`divided` divides by the table of calibrated rocks (:mod:`.rocks`).
+ENVELOPE = "envelope"
 #: Strengths that :func:`divided` can divide.
-QUANTITIES = ("friction", "rolling_friction", "cohesion", "tension")
+QUANTITIES = ("friction", "rolling_friction", "cohesion", "tension", ENVELOPE)
 REDUCED = QUANTITIES[:3]  # usually
 
 
@@ -87,7 +89,16 @@ def divided(material, factor, quantities=REDUCED):
     leaves the adhesion F_a as it is, as the apex of Mohr's line stays where c and tan φ fall together; divided alone it
     divides F_a, and friction alone multiplies it. "tension" divides F_a besides. The torque of rolling goes with the
     same F_a: μ_r ℓ (F_a + N).
+
+    "envelope", which comes alone, divides c and tan φ of samples: a material of the table of calibrated rocks
+    (:func:`.rocks.asked`) gets the contacts that the table has for them, as of :func:`.rocks.reduced`; any other, as
+    that of a wall, is divided by :data:`REDUCED`, as a wall's c and tan φ are those of its contacts. ValueError for a
+    factor beyond the table.
     """
+    if ENVELOPE in quantities:
+        if rocks.asked(material) is not None:
+            return rocks.reduced(material, factor)
+        quantities = REDUCED
     friction = factor if "friction" in quantities else 1.0
     rolling = factor if "rolling_friction" in quantities else 1.0
     adhesion = friction / (factor if "cohesion" in quantities else 1.0)

@@ -10,10 +10,14 @@ rocks. Needs no YADE.
 The second is exact in σ_ext: rigid disks know no other stress than σ_ext and the pressure, so samples whose strengths
 are all k times as large bear k times the stresses at the same strains. The first leaves an error, which the table
 states beside the scatter of samples.
+
+A rock without cohesion has contacts without tension, and the friction that the law has for its φ: samples whose bonds
+bear nothing beside the pressure.
 """
 
 from __future__ import annotations
 
+import dataclasses
 import functools
 import json
 import math
@@ -31,6 +35,8 @@ __all__ = [
     "interval",
     "like_table",
     "other_samples",
+    "reach",
+    "reduced",
     "resolved",
     "table",
 ]
@@ -85,11 +91,11 @@ def interval() -> tuple[float, float]:
 
 
 def contacts(cohesion: float, friction_angle: float) -> Contacts:
-    """The Contacts for c [Pa], above 0, and φ [degrees], within the :func:`interval`; ValueError outside."""
+    """The Contacts for c [Pa], 0 or more, and φ [degrees], within the :func:`interval`; ValueError outside."""
     low, high = interval()
-    if not (cohesion > 0 and low <= friction_angle <= high):
+    if not (cohesion >= 0 and low <= friction_angle <= high):
         raise ValueError(
-            f"c = {cohesion:g} Pa, φ = {friction_angle:g}°: the table holds c > 0, φ from {low:g} to {high:g}°"
+            f"c = {cohesion:g} Pa, φ = {friction_angle:g}°: the table holds c of 0 or more, φ from {low:g} to {high:g}°"
         )
     angle, mu, share = _columns()
     at = float(np.interp(friction_angle, angle, mu))
@@ -108,9 +114,11 @@ def _rounded(value):
     return float(f"{value:.{DIGITS}g}")
 
 
-def _fixed() -> dict:
-    """What all rocks of the table share. It is older than ``bonds_close``, and was measured without."""
-    return {"bonds_close": False, **table()["fixed"]}
+def _fixed(bonded) -> dict:
+    """What all rocks of the table share but that those without cohesion are not ``bonded``. The table is older than
+    ``bonds_close``, and was measured without.
+    """
+    return {"bonds_close": False, **table()["fixed"], "bonded": bonded}
 
 
 def resolved(raw: dict, refuse) -> dict:
@@ -139,12 +147,8 @@ def resolved(raw: dict, refuse) -> dict:
             f"{beside}, and only walls weaken with slip, which have the friction of their contacts",
             "give the wall a material with friction instead of cohesion and friction_angle",
         )
-    if not raw.get("bonded", True):
-        refuse(
-            ("bonded",),
-            f"false {beside}, and cohesion is that of bonds",
-            "leave bonded out, or give friction instead of cohesion and friction_angle",
-        )
+    if cohesion > 0 and not raw.get("bonded", True):
+        refuse(("bonded",), f"false {beside}, and cohesion is that of bonds", "leave bonded out, or give cohesion: 0")
     low, high = interval()
     search = f"scripts/calibrate.py --cohesion {cohesion:g} --friction {angle:g}"
     if not low <= angle <= high:
@@ -154,7 +158,7 @@ def resolved(raw: dict, refuse) -> dict:
             "give an angle within"
             + (f", or let {search} search the contact parameters" if REACHED[0] < angle < REACHED[1] else ""),
         )
-    for key, value in _fixed().items():
+    for key, value in _fixed(cohesion > 0).items():
         if key in raw and raw[key] != value:
             refuse(
                 (key,),
@@ -178,6 +182,7 @@ def resolved(raw: dict, refuse) -> dict:
         "residual_friction": _rounded(usual["residual_friction_over_friction"] * found.friction),
         "residual_tensile_strength": usual["residual_tensile_strength_over_tensile_strength"] * found.tensile_strength,
         **table()["fixed"],
+        "bonded": cohesion > 0,
         **{k: v for k, v in raw.items() if k not in ASKED},
     }
     return made | {"envelope": dict(zip(("cohesion", "friction_deg"), (cohesion, angle)))}
@@ -191,7 +196,7 @@ def like_table(material) -> bool:
     def plain(value):
         return list(value) if isinstance(value, tuple) else value
 
-    return all(plain(getattr(material, key)) == value for key, value in _fixed().items())
+    return all(plain(getattr(material, key)) == value for key, value in _fixed(material.bonded).items())
 
 
 def asked(material) -> Contacts | None:
@@ -200,7 +205,9 @@ def asked(material) -> Contacts | None:
     """
     e = material.envelope
     low, high = interval()
-    if e is None or not (e.cohesion > 0 and low <= e.friction_deg <= high and like_table(material)):
+    if e is None or not (low <= e.friction_deg <= high and like_table(material)):
+        return None
+    if material.bonded != (e.cohesion > 0):
         return None
     found = contacts(e.cohesion, e.friction_deg)
 
@@ -210,6 +217,40 @@ def asked(material) -> Contacts | None:
 
     same = near(material.friction, found.friction) and near(material.tensile_strength, found.tensile_strength)
     return found if same else None
+
+
+def reach(material) -> tuple[float, float]:
+    """The smallest and the largest factor by which the envelope of a section.Material of the table (:func:`asked`) may
+    be divided: tan φ over those of the table's ends.
+    """
+    tangent = math.tan(math.radians(material.envelope.friction_deg))
+    low, high = (math.tan(math.radians(angle)) for angle in interval())
+    return tangent / high, tangent / low
+
+
+def reduced(material, factor):
+    """A section.Material of the table (:func:`asked`) with its envelope divided by a ``factor``: the contacts that the
+    table has for c/F and tan φ/F, and residual values in proportion to them.
+
+    Raises ValueError for a factor beyond its :func:`reach`.
+    """
+    if factor == 1:  # the one that there is, which a scaled section has with other last digits
+        return material
+    e, (low, high) = material.envelope, interval()
+    angle = math.degrees(math.atan(math.tan(math.radians(e.friction_deg)) / factor))
+    if math.isclose(angle, low) or math.isclose(angle, high):  # the reach itself, but for rounding
+        angle = min(max(angle, low), high)
+    found = contacts(e.cohesion / factor, angle)
+    friction = found.friction / material.friction
+    tension = found.tensile_strength / material.tensile_strength if material.tensile_strength else 1.0
+    return dataclasses.replace(
+        material,
+        friction=found.friction,
+        residual_friction=material.residual_friction * friction,
+        tensile_strength=found.tensile_strength,
+        residual_tensile_strength=material.residual_tensile_strength * tension,
+        envelope=dataclasses.replace(e, cohesion=e.cohesion / factor, friction_deg=angle),
+    )
 
 
 def other_samples(disks, pressed) -> str:

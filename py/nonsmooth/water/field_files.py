@@ -129,19 +129,25 @@ def _datasets(path, name):
     try:
         file = h5py.File(path, "r")
     except (OSError, RuntimeError) as error:
-        raise FieldError(f"{path}: is no HDF5 file that can be read ({' '.join(str(error).split())})") from None
+        raise FieldError(
+            f"{path}: is no HDF5 file that can be read ({' '.join(str(error).split())}); give one, or a file with another "
+            "suffix that meshio reads"
+        ) from None
     try:
         with file:
             held = {key: item for key, item in file.items() if isinstance(item, h5py.Dataset)}
             needed = ("times", name, *(("x", "y") if "x" in held or "y" in held else ("nodes", "triangles")))
             missing = [key for key in needed if key not in held]
             if missing:
-                raise FieldError(f"has no dataset {', '.join(missing)}; it has {', '.join(held) or 'none'}")
+                raise FieldError(
+                    f"has no dataset {', '.join(missing)}; it has {', '.join(held) or 'none'}: give a file with "
+                    "these, or the name of its pressures"
+                )
             return {key: held[key][()] for key in (*needed, *(("layer",) if "layer" in held else ()))}
     except (OSError, RuntimeError, KeyError, ValueError, TypeError) as error:  # whatever h5py meets in damaged bytes
         if isinstance(error, WaterError):
             raise
-        raise FieldError(f"a dataset cannot be read ({' '.join(str(error).split())})") from None
+        raise FieldError(f"a dataset cannot be read ({' '.join(str(error).split())}); give a whole file") from None
 
 
 def _read_mesh(path, name):
@@ -155,7 +161,10 @@ def _read_mesh(path, name):
         raise
     except BaseException as error:  # meshio ends the process for some files
         said = " ".join(str(error).split())
-        raise FieldError(f"{path}: meshio cannot read it ({said if len(said) > 1 else type(error).__name__})") from None
+        raise FieldError(
+            f"{path}: meshio cannot read it ({said if len(said) > 1 else type(error).__name__}); give a file of triangles, "
+            "as .vtu, .vtk, .msh or .xdmf"
+        ) from None
     return _of_meshio(found.points, found.cells, found.point_data, name)
 
 
@@ -172,7 +181,10 @@ def _read_xdmf(path, name):
             points, cells = reader.read_points_cells()
             states = [reader.read_data(k)[:2] for k in range(reader.num_steps)]
     except Exception as error:
-        raise FieldError(f"{path}: meshio cannot read the series ({' '.join(str(error).split())})") from None
+        raise FieldError(
+            f"{path}: meshio cannot read the series ({' '.join(str(error).split())}); give a whole one, or a file for "
+            "each state"
+        ) from None
     if not states:
         return None
     read = [_of_meshio(points, cells, data, name) for _, data in states]
@@ -181,7 +193,10 @@ def _read_xdmf(path, name):
 
 def _of_meshio(points, cells, data, name):
     if name not in data:
-        raise FieldError(f"has no values {name!r} at its points; it has {', '.join(map(repr, data)) or 'none'}")
+        raise FieldError(
+            f"has no values {name!r} at its points; it has {', '.join(map(repr, data)) or 'none'}: give the name of the "
+            "pressures"
+        )
     triangles = [block.data for block in cells if block.type == "triangle"]
     # a rectangle as two triangles
     triangles += [

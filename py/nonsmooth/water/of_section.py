@@ -136,12 +136,12 @@ def _of_files(water, section):
     except WaterError as error:
         raise FieldError(f"{where}: {error}") from None
     if water.outside == "refuse":
-        _require_cover(found.mesh, section, where)
+        _require_cover(found.mesh, section, where, water.files[0])
     return found
 
 
-def _require_cover(mesh, section, where):
-    """Raises FieldError where a mesh leaves out a place of the layers at which a disk's centre may lie."""
+def _require_cover(mesh, section, where, file):
+    """Raises FieldError where the mesh of a file leaves out a place of the layers at which a disk's centre may lie."""
     rim = unary_union([LineString(ends) for ends in mesh.nodes[mesh.border]])
     held = [part for part in polygonize(rim) if mesh.locate(part.representative_point().coords)[0] >= 0]
     asked = section.outline.buffer(-0.5 * section.smallest)
@@ -151,6 +151,6 @@ def _require_cover(mesh, section, where):
         x, y = largest.representative_point().coords[0]
         box = ", ".join(f"{v:.6g}" for v in mesh.bounds)
         raise FieldError(
-            f"{where}: its mesh, which lies within {box} m, does not cover the layers: it has no pressure at "
+            f"{where}: {file}: its mesh, which lies within {box} m, does not cover the layers: it has no pressure at "
             f"({x:.6g}, {y:.6g}) m; give a mesh that covers them, or water.outside: dry"
         )

@@ -66,8 +66,9 @@ def field(water, section) -> MeshField:
 def course(water, section):
     """The mesh of the layers, and the heads [m] at its nodes in each of the states, (states, nodes)."""
     where = f"{section.source}: water.seepage"
+    places = _places(water, section)
     try:
-        mesh = mesher.of_section(section, water.size, _places(water, section))
+        mesh = mesher.of_section(section, water.size, places)
     except WaterError as error:
         raise SectionSeepageError(f"{where}: {error}") from None
     tensors = [seepage.tensor(along, across, dip) for _, along, across, dip in water.conductivity]
@@ -135,10 +136,10 @@ def _places(water, section):
     end = free.start + free.length[:, None] * free.direction
     found = [free.start, end]
     levels = {one.reservoir for one in water.states if one.reservoir is not None}
-    for state in water.states:
-        for one in state.boundaries:
+    for k, state in enumerate(water.states):
+        for i, one in enumerate(state.boundaries):
             if one.line is not None:
-                found.append(np.array(one.line))
+                found.append(_on_border(np.array(one.line), section, f"water.seepage.states[{k}].boundaries[{i}].line"))
             if one.kind == "reservoir":
                 levels.add(one.value)
     low, high = np.minimum(free.start[:, 1], end[:, 1]), np.maximum(free.start[:, 1], end[:, 1])
@@ -148,6 +149,20 @@ def _places(water, section):
         x = free.start[cut, 0] + share * (end[cut, 0] - free.start[cut, 0])
         found.append(np.column_stack((x, np.full(len(x), level))))
     return np.concatenate(found)
+
+
+def _on_border(line, section, where):
+    """The points of a line (k, 2) [m] along the layers' border; raises SectionSeepageError for one that is not there."""
+    rings = [np.vstack((layer.points, layer.points[:1])) for layer in section.layers]
+    away = geometry.nearest(line, *geometry.pieces(rings))[0]
+    k = int(np.argmax(away))
+    if away[k] > section.tolerance:
+        x, y = line[k]
+        raise SectionSeepageError(
+            f"{section.source}: {where}: its point ({x:.6g}, {y:.6g}) lies {away[k]:.3g} m from the layers' border; give "
+            "points along it"
+        )
+    return line
 
 
 def _conditions(state, mesh, section):

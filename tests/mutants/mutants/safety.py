@@ -6,7 +6,9 @@ RULES, MATERIALS, MASS = (PY + f"{name}.py" for name in ("course/strength_reduct
 SEARCH, LOADING, ASKED, WORLDS, SOFT = (
     PY + f"{name}.py" for name in ("studies/safety/search", "studies/safety/loading", "studies/safety/asked", "world/worlds", "world/soft/strengths")
 )
+ROCKS, SLICES = (PY + f"{name}.py" for name in ("model/rocks", "measure/slices"))
 PLAIN = "plain:test_strength_reduction.py::"
+ENVELOPE, CIRCLES = "test_rocks.py::", "plain:test_slices.py::"
 BLOCK = "test_factor_of_safety.py::"
 
 MUTANTS = (
@@ -35,7 +37,28 @@ MUTANTS = (
            BLOCK + "test_contacts_that_exist_have_the_divided_strengths_and_those_to_come_too"),
     mutant("divided-soft-wall", SOFT, "p.rollingArm = wall.rollingFriction * p.length", "p.rollingArm = wall.rollingFriction", "soft contacts with walls have a rolling arm without their length",
            BLOCK + "test_contacts_that_exist_have_the_divided_strengths_and_those_to_come_too"),
-    mutant("divided-all", ASKED, "if name in chosen else m", "", "materials that nobody named are divided too", BLOCK + "test_materials_that_are_not_named_stay"),
+    mutant("divided-envelope", ROCKS, "math.tan(math.radians(e.friction_deg)) / factor))", "math.tan(math.radians(e.friction_deg / factor))))",
+           "an angle of friction is divided, and not its tangent", ENVELOPE + "test_a_divided_envelope_is_that_of_the_table"),
+    mutant("divided-envelope-cohesion", ROCKS, "found = contacts(e.cohesion / factor, angle)", "found = contacts(e.cohesion, angle)", "a divided envelope keeps its cohesion",
+           ENVELOPE + "test_a_divided_envelope_is_that_of_the_table"),
+    mutant("divided-envelope-residual", ROCKS, "residual_friction=material.residual_friction * friction", "residual_friction=material.residual_friction",
+           "a divided envelope keeps its residual friction", ENVELOPE + "test_a_divided_envelope_is_that_of_the_table"),
+    mutant("divided-envelope-walls", MATERIALS, "        quantities = REDUCED\n", "        return material\n", "walls are not divided with the envelopes of rocks",
+           BLOCK + "test_a_divided_envelope_is_that_of_the_rocks_and_walls_keep_theirs"),
+    mutant("divided-reach", ASKED, "most=min(made.most, high)", "most=made.most", "a search goes beyond the table that it divides by",
+           BLOCK + "test_factors_stay_within_the_table_that_is_divided_by"),
+    mutant("divided-reach-sides", ROCKS, "return tangent / high, tangent / low", "return tangent / low, tangent / high", "the smallest factor of a table is its largest",
+           ENVELOPE + "test_an_envelope_is_divided_as_far_as_the_table_goes"),
+    mutant("divided-envelope-layers", ASKED, "if name in self._chosen() and rocks.asked(", "if rocks.asked(", "rocks that are not divided must be of the table",
+           BLOCK + "test_an_envelope_that_the_table_has_not_is_refused"),
+    # ---- the method of slices
+    mutant("slices-arm", SLICES, "arm = cosine + sine * tangent / factor", "arm = cosine + sine * tangent", "m_α knows no factor", CIRCLES + "test_published_slopes_have_their_factors"),
+    mutant("slices-weight", SLICES, "top - np.maximum(bottom, base)", "top - bottom", "soil below a circle weighs on it", CIRCLES + "test_published_slopes_have_their_factors"),
+    mutant("slices-side", SLICES, "sine, driving = -sine, -driving", "driving = -driving", "a slope that falls to the right has no factor", CIRCLES + "test_a_mirrored_slope_has_the_same_factor"),
+    mutant("slices-lean", SLICES, "if max(y0, y1) <= y else None", "", "circles lean over the crest", CIRCLES + "test_a_vertical_cut_in_clay_stands_by_taylors_number"),
+    mutant("slices-base", SLICES, "here = inside & (bottom <= base) & (base <= top)", "here = inside", "a slice has the strength of its lowest soil, and not of its base",
+           CIRCLES + "test_published_slopes_have_their_factors"),
+    mutant("divided-all", ASKED, "if name in self._chosen() else m", "", "materials that nobody named are divided too", BLOCK + "test_materials_that_are_not_named_stay"),
     # ---- trials
     mutant("safety-back", SEARCH, "if said[0] == reduction.STABLE:", "if said:", "a trial begins where the one before has failed", BLOCK + "test_a_dry_block_has_its_exact_factor"),
     mutant("safety-steps", SEARCH, '"step": s.steps + O.iter - s.first_step', '"step": O.iter', "steps of the series go back with the scene", BLOCK + "test_a_dry_block_has_its_exact_factor"),

@@ -5,7 +5,9 @@ MODEL, WATER, SLOPE = "py/nonsmooth/model/section/", "py/nonsmooth/water/", "py/
 LINES, STATES, BASE = MODEL + "water.py", MODEL + "seepage.py", MODEL + "field_water.py"
 FIELD, SEEPAGE = WATER + "of_section.py", WATER + "section_seepage.py"
 MONITOR, COURSE, RULES = SLOPE + "monitoring.py", SLOPE + "experiment.py", "py/nonsmooth/course/slope.py"
+WORLD = "py/nonsmooth/world/pore_pressure.py"
 KEYS, FLOW, RUN = "plain:test_section_water.py", "plain:test_water_of_sections.py", "test_field_water.py"
+HELD = "test_verification.py::test_quick_form_of_a_long_check_holds[{}]"
 REFUSED = KEYS + "::test_what_is_refused_is_named_with_its_value_and_a_remedy"
 
 MUTANTS = (
@@ -39,5 +41,15 @@ MUTANTS = (
            "plain:test_course.py::test_while_states_of_a_field_of_water_are_to_come_it_neither_stands_nor_is_still"),
     mutant("water-still", RULES, "if height == s.table and not seen.coming else", "if height == s.table else", "a slope is still while its water rises", RUN + "::test_a_slope_stands_only_after_the_last_state"),
     mutant("water-kept", COURSE, "field_files.read(Path(folder) / of_section.FILE)", "of_section.field(section)", "a resumed run wants the file again", RUN + "::test_a_run_does_not_need_the_file_of_its_field_again"),
+    # ---- against closed forms
+    mutant("water-line-weight", FIELD, "pressures.append((weight[:, None] * (ends - corners[..., 1])).ravel())", "pressures.append((weight[:, None] * np.abs(ends - corners[..., 1])).ravel())",
+           "there is pressure above a line", HELD.format("still-water-on-a-face")),
+    mutant("water-open-level", SEEPAGE, "water.unit_weight * (level - nodes[:, 1])", "water.unit_weight * level", "open water has no hydrostatic pressure", HELD.format("still-water-on-a-face")),
+    mutant("water-state-times", WORLD, "times=(pressures.times + begin).tolist()", "times=(pressures.times + 0.9 * begin).tolist()", "states of water come early", HELD.format("states-in-time")),
+    mutant("water-bulk", SLOPE + "slope.py", 'volumeFactor=1.0 if section.water.volume == "disk" else 1 / section.disks.packing_fraction', "volumeFactor=1.0", "water of the bulk acts on disks alone",
+           HELD.format("parallel-seepage")),
+    mutant("water-artesian", "py/nonsmooth/water/conditions.py", "PressureHead: lambda: y[nodes] + one.height", "PressureHead: lambda: np.full(len(nodes), float(one.height)) - y[nodes]", "an artesian base has another head than its pressure asks for",
+           HELD.format("floating-grains")),
+    mutant("water-drawdown", FIELD, "weight = water.unit_weight / (1 + slope**2", "weight = 9810 + 0 * water.unit_weight / (1 + slope**2", "a drawdown along the slope is Morgenstern's", FLOW + "::test_a_drawdown_leaves_the_share_of_safety_of_its_book_keeping"),
     mutant("water-heads", "py/nonsmooth/measure/pressure_heads.py", "up)[piece] + share", "0 * up)[piece] + share", "heads are read below the disks", RUN + "::test_the_run_tells_of_the_pressure_on_the_slip_surface"),
 )

@@ -463,6 +463,7 @@ WHERE = {
     },
     "rocks.py": {
         "--check": (("--check",), lambda a: [e.name for e in a.words[1]][0], "c-20-phi-25"),
+        "--add": (("--add", "--frictions", 0.5, 0.6), lambda a: [e.material.friction for e in a.words[1]], [0.5, 0.6]),
         "--disks": (("--disks", 321), lambda a: a.words[1][0].count, 321),
         "--frictions": (("--frictions", 0.5, 0.6), lambda a: [e.material.friction for e in a.words[1][:2]], [0.5, 0.6]),
         "--seeds": (("--seeds", 7, 8), lambda a: a.words[2], [7, 8]),
@@ -660,6 +661,8 @@ def test_checks_are_listed(in_process):
         ("calibrate.py", ("--cohesion", 50e3, "--friction", 30, "--quick", "--fine", 900), "--fine 900 with --quick"),
         ("rocks.py", ("--seeds", 1), "--seeds 1: give 2 or more, each once"),
         ("rocks.py", ("--frictions", 0.3, 0.3), "--frictions 0.3 0.3: give 2 or more, each once"),
+        ("rocks.py", ("--add", "--seeds", 4, 5), "--add with 1000 disks and seeds 4 5: samples are compared"),
+        ("rocks.py", ("--add", "--check"), "not allowed with argument"),
         ("calibrate.py", ("--cohesion", 50e3, "--friction", 30, "--residual-friction", 20), "give both"),
         (
             "calibrate.py",

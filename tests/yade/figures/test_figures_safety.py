@@ -76,3 +76,22 @@ def test_the_failing_mass_is_coloured_by_its_way():
     }
     assert list(drawn.handles(fig)) == ["stays", "fails, and has moved by up to 2.5 m"]
     assert [t.get_text() for t in fig.texts] == ["made up"]
+
+
+def test_factors_stand_over_the_number_of_disks():
+    found = [
+        {"label": "one", "published": 2.0, "disks": [500, 1000], "factors": [[1.8, 2.2], [2.0, 2.1]]},
+        {"label": "two", "published": 1.0, "disks": [490, 1000], "factors": [[0.9], [0.95]]},
+    ]
+    fig = safety.by_disks(found)
+    (ax,) = fig.axes
+    assert drawn.levels(ax) == [(1.0, style.INK)]
+    (band,) = ax.patches
+    assert sorted(set(band.get_xy()[:, 1])) == [0.9, 1.1]
+    means = {line.get_label(): drawn.points(line) for line in ax.lines if line.get_marker() == "s"}
+    assert means["one"][:, 1] == pytest.approx([1.0, 1.025]) and means["two"][:, 1] == pytest.approx([0.9, 0.95])
+    # slopes stand a little apart, around the number that they have
+    assert means["one"][:, 0] * safety.APART == pytest.approx(means["two"][:, 0] * [500 / 490, 1.0])
+    dots = sorted(v for line in ax.lines if line.get_marker() == "o" for v in line.get_ydata())
+    assert dots == pytest.approx([0.9, 0.9, 0.95, 1.0, 1.05, 1.1])
+    assert ax.get_xscale() == "log" and [t.get_text() for t in ax.get_xticklabels()] == ["490", "500", "1,000"]

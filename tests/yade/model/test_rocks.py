@@ -196,7 +196,8 @@ BESIDE = "is given beside cohesion: 60000 and friction_angle: 34"
         ({"residual_tensile_strength": 80e3}, "measured with 0 to 2"),
         ({"cohesion": None}, "the key 'cohesion' is missing; add it (a rock of the table is asked for by"),
         ({"friction_angle": None}, "the key 'friction_angle' is missing"),
-        ({"cohesion": 0}, "cohesion: 0 is not allowed; needed: peak cohesion"),
+        ({"cohesion": -1}, "cohesion: -1 is not allowed; needed: peak cohesion"),
+        ({"cohesion": 0, "bonded": True}, "rock.bonded: True is given beside cohesion: 0"),
         ({"cohesion": None, "friction_angle": None, "rolling_friction": 0.1}, "the key 'friction' is missing; add it (coefficients of sliding"),
         ({"friction_angle": HIGH + 0.5}, f"which has {LOW:g} to {HIGH:g} degrees; give an angle within, or let scripts/calibrate.py --cohesion 60000 --friction {HIGH + 0.5:g} search"),
         ({"friction_angle": LOW - 0.5}, f"friction_angle: {LOW - 0.5:g} degrees is outside the table of calibrated rocks"),
@@ -218,8 +219,59 @@ def test_the_ends_of_the_interval_are_within():
     for angle in (LOW - 0.2, HIGH + 0.2):
         with pytest.raises(ValueError, match="the table holds"):
             rocks.contacts(60e3, angle)
-    with pytest.raises(ValueError, match="the table holds c > 0"):
-        rocks.contacts(0.0, 34.0)
+    with pytest.raises(ValueError, match="the table holds c of 0 or more"):
+        rocks.contacts(-1.0, 34.0)
+
+
+def test_a_rock_without_cohesion_has_no_bonds():
+    made = rock_of(cohesion=0)
+    assert (made.bonded, made.tensile_strength, made.residual_tensile_strength) == (False, 0.0, 0.0)
+    assert made.friction == rocks.contacts(60e3, 34.0).friction and made.envelope == section.Envelope(0.0, 34.0)
+    assert rocks.asked(made).friction == made.friction and rock_of(cohesion=0, bonded=False) == made
+    # one with bonds has cohesion
+    assert rocks.asked(dataclasses.replace(made, bonded=True)) is None
+    assert rocks.asked(dataclasses.replace(rock_of(), bonded=False)) is None
+
+
+# ---- envelopes that are divided --------------------------------------------------------------------
+
+
+@pytest.mark.parametrize("factor", [0.8, 1.3])
+def test_a_divided_envelope_is_that_of_the_table(factor):
+    """c and tan φ, both: the rock that a section would have asked for."""
+    angle = math.degrees(math.atan(math.tan(math.radians(34.0)) / factor))
+    asked = rock_of(cohesion=60e3 / factor, friction_angle=angle)
+    made = rocks.reduced(rock_of(), factor)
+    assert made.envelope.friction_deg == pytest.approx(angle) and made.envelope.cohesion == 60e3 / factor
+    assert made.friction == asked.friction and made.tensile_strength == pytest.approx(asked.tensile_strength)
+    # what is left after slip and breaks keeps its share
+    half = dataclasses.replace(rock_of(), residual_friction=rock_of().friction / 2, residual_tensile_strength=0.0)
+    less = rocks.reduced(half, factor)
+    assert less.residual_friction == pytest.approx(less.friction / 2) and less.residual_tensile_strength == 0
+    assert made.residual_tensile_strength == pytest.approx(made.tensile_strength / 4, rel=1e-3)
+    assert (made.rolling_friction, made.density) == (asked.rolling_friction, asked.density)
+    loose = rocks.reduced(rock_of(cohesion=0), factor)
+    assert (loose.friction, loose.tensile_strength, loose.bonded) == (asked.friction, 0.0, False)
+
+
+def test_a_factor_of_one_leaves_the_rock_as_it_is():
+    scaled = dataclasses.replace(rock_of(), tensile_strength=rock_of().tensile_strength * (1 + 1e-5))
+    assert rocks.asked(scaled) is not None and rocks.reduced(scaled, 1.0) == scaled
+
+
+def test_an_envelope_is_divided_as_far_as_the_table_goes():
+    rock = rock_of()
+    least, most = rocks.reach(rock)
+    low, high = (math.tan(math.radians(angle)) for angle in (LOW, HIGH))
+    assert (least, most) == pytest.approx((math.tan(math.radians(34.0)) / high, math.tan(math.radians(34.0)) / low))
+    assert rocks.reduced(rock, most).envelope.friction_deg == pytest.approx(LOW)
+    assert rocks.reduced(rock, least).envelope.friction_deg == pytest.approx(HIGH)
+    for beyond in (0.99 * least, 1.01 * most):
+        with pytest.raises(ValueError, match="the table holds"):
+            rocks.reduced(rock, beyond)
+
+
+# ---- what is said of it ----------------------------------------------------------------------------
 
 
 def test_a_scene_says_what_its_rock_is_made_of():
@@ -486,6 +538,16 @@ def test_the_command_writes_its_table_and_its_check(in_process, monkeypatch, tmp
     assert [row["friction"] for row in told["rocks"]] == [0.2, 0.3, 0.5] and told["samples"]["seeds"] == [4, 5]
     assert [row["name"] for row in told["variants"]] == [e.name for e in rock_table.variants()]
     assert (tmp_path / "table" / "rocks.png").stat().st_size > 10_000 and "μ_s = 0.5" in done.out
+    # rocks that are added stand beside those of the shipped table, or in their place
+    done = in_process("rocks.py", "--add", "--frictions", 0.3, 0.6, "--out", tmp_path / "added")
+    assert done.status == 0, done.err
+    told = json.loads((tmp_path / "added" / "rocks.json").read_text())
+    shipped = rocks.table()
+    assert [row["friction"] for row in told["rocks"]] == [row["friction"] for row in shipped["rocks"]] + [0.6]
+    for row, old in zip(told["rocks"], shipped["rocks"]):
+        assert (row == old) == (row["friction"] != 0.3)
+    assert told["variants"] == shipped["variants"] and told["scatter"]["freedom"] == 4
+    assert told["command"].startswith(shipped["command"] + ", then scripts/rocks.py --add --frictions 0.3 0.6")
     assert in_process("rocks.py", "--check", "--out", tmp_path / "check").status == 0
     told = json.loads((tmp_path / "check" / "rocks_check.json").read_text())
     assert [row["seeds"] for row in told["rows"]] == [list(rock_table.CHECK_SEEDS)] * 3 and told["of"] == 24

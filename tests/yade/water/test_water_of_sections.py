@@ -12,89 +12,33 @@ import pytest
 ROOT = Path(__file__).resolve().parents[3]
 sys.path.insert(0, str(ROOT / "py"))
 from nonsmooth import section, similar  # noqa: E402
-from nonsmooth.water import WaterError, forces, of_section  # noqa: E402
-
-DIP, THICK, PHI = 21.0, 10.0, 0.84
-BETA = math.radians(DIP)
-
-
-def at(s, h):
-    """The place [m] s up the plane and h above it."""
-    return [-s * math.cos(BETA) + h * math.sin(BETA), s * math.sin(BETA) + h * math.cos(BETA)]
-
-
-def long_slope(density, **water):
-    """A layer on a plane, under a reservoir; in a second state with water up to its surface."""
-    base, surface = ([[x, -x * math.tan(BETA) + up / math.cos(BETA)] for x in (-190.0, 0.0)] for up in (0.0, THICK))
-    lines = [{"time": 0.0, "points": [[-210.0, 120.0], [40.0, 120.0]]}, {"time": 5.0, "points": surface}]
-    if "seepage" not in water:
-        water["phreatic"] = {"lines": lines, **water.get("phreatic", {})}
-    rock = {"friction": 0.5, "rolling_friction": 0.1, "bonded": False, "density": density}
-    plane = {"friction": 0.5, "rolling_friction": 0.1, "bonded": False}
-    return section.of(
-        name="long",
-        walls=[{"name": "plane", "material": "plane", "role": "slip", "vertices": [at(215, 0), at(-15, 0)]}],
-        layers=[{"name": "rock", "material": "rock", "vertices": [*base, *surface[::-1]]}],
-        materials={"rock": rock, "plane": plane},
-        disks={"diameter": [0.5, 1.0], "packing_fraction": PHI},
-        water=water,
-    )
+from nonsmooth.judges.verification.water import drawdown  # noqa: E402
+from nonsmooth.judges.verification.water.drawdown import (
+    BARE,
+    BETA,
+    FULL,
+    at,
+    factor,
+    layer_on_a_plane,
+    seeping,
+)  # noqa: E402
+from nonsmooth.water import WaterError, of_section  # noqa: E402
 
 
-def factor(made, time):
-    """Of safety of disks within the layer, by tan φ: normal over shear force on the plane."""
-    rng = np.random.default_rng(7)
-    x, y = np.array([at(s, h) for s, h in zip(rng.uniform(40, 160, 300), rng.uniform(0.2, THICK - 0.2, 300))]).T
-    r = rng.uniform(0.25, 0.5, 300)
-    share = {"packing_fraction": made.disks.packing_fraction} if made.water.volume == "bulk" else {}
-    force = forces.on_disks(of_section.field(made), x, y, r, time, area=made.water.volume, **share)
-    force[:, 1] -= made.materials["rock"].density * made.gravity * math.pi * r**2
-    total = force.sum(axis=0)
-    return -(total @ made.normal) / (total @ made.downslope)
-
-
-#: weight of the bulk, book-keeping, and the factor of safety after a drawdown by that before it
-CASES = {
-    "N' stays": (2260 / PHI, {"volume": "bulk", "phreatic": {"flow": "along"}}, 1 - 1000 / 2260, 0.5575),
-    "Morgenstern's B = 1": (2260 / PHI, {"volume": "bulk"}, 1 - 1000 / 2260 / math.cos(BETA) ** 2, 0.492),
-    "the paper's bulk": (2500.0, {"volume": "bulk", "phreatic": {"flow": "along"}}, 1 - 1000 / 2100, 0.524),
-    "volumes of disks": (2500.0, {"volume": "disk", "phreatic": {"flow": "along"}}, 1 - 1000 / 2500, 0.600),
-}
-
-
-@pytest.mark.parametrize("case", CASES)
+@pytest.mark.parametrize("case", drawdown.BOOKS)
 def test_a_drawdown_leaves_the_share_of_safety_of_its_book_keeping(case):
-    density, water, closed, printed = CASES[case]
-    made = long_slope(density, **water)
-    before, after = factor(made, 0.0), factor(made, 5.0)
+    density, water, closed, printed = drawdown.BOOKS[case]
+    made = layer_on_a_plane(density, **water)
+    before, after = (factor(made, time) for time in (drawdown.BEFORE, drawdown.AFTER))
     assert before == pytest.approx(1 / math.tan(BETA), rel=1e-10)  # under water as dry
-    if "flow" in water.get("phreatic", {}):
-        assert after / before == pytest.approx(closed, rel=1e-10)
-    else:  # water that flows sideways pulls along the slope too
-        weight, lift = density * PHI * 9.81, 9810.0
-        push = lift * math.tan(BETA) * np.array([math.cos(BETA), math.sin(BETA)])  # of −∇p's horizontal part
-        normal = weight * math.cos(BETA) - lift * math.cos(BETA) - push[1]
-        shear = weight * math.sin(BETA) - lift * math.sin(BETA) + push[0]
-        assert after == pytest.approx(normal / shear, rel=1e-10)
-        # N' is that of the pressure γ_w z on the plane
-        assert normal / (weight * math.cos(BETA)) == pytest.approx(closed, rel=1e-10)
-    assert closed == pytest.approx(printed, abs=5e-4)
+    assert after / before == pytest.approx(closed, rel=1e-10) and closed == pytest.approx(printed, abs=5e-4)
 
 
 # ---- seepage ------------------------------------------------------------------------------------------
-def seeping(*states, conductivity=1e-5, size=2.5, density=2260 / PHI, **keys):
-    return long_slope(
-        density, volume="bulk", seepage={"size": size, "conductivity": conductivity, "states": states, **keys}
-    )
-
-
-FULL, BARE = {"time": 0.0, "reservoir": 120.0}, {"time": 5.0, "drained": False}
-
-
 @pytest.fixture(scope="module")
 def drawn_down():
     """A long slope under a reservoir, at once after a rapid drawdown, and when it has drained: (section, field)."""
-    layers = {"rock": {"along": 2e-5, "across": 1e-5, "dip": DIP}}
+    layers = {"rock": {"along": 2e-5, "across": 1e-5, "dip": math.degrees(BETA)}}
     made = seeping(FULL, BARE, {"time": 9.0, "reservoir": -100.0}, conductivity=layers)
     return made, of_section.field(made)
 
@@ -110,7 +54,7 @@ def test_a_rapid_drawdown_of_seeping_water_leaves_the_effective_stresses(drawn_d
 def test_open_water_stands_over_the_ground_at_the_level_of_the_time(drawn_down):
     made, field = drawn_down
     x = np.linspace(-185, -5, 60)
-    ground = -x * math.tan(BETA) + THICK / math.cos(BETA)
+    ground = -x * math.tan(BETA) + drawdown.THICK / math.cos(BETA)
     over = np.column_stack((x, ground + 1.0))
     assert field.pressure(over, 0.0) == pytest.approx(9810 * (120 - over[:, 1]), rel=1e-12)
     assert field.gradient(over, 0.0) == pytest.approx(np.tile((0.0, -9810.0), (60, 1)), abs=1e-6)
@@ -214,7 +158,7 @@ REFUSED = {
 def test_what_is_refused_when_a_section_is_read(case):
     keys, *parts = REFUSED[case]
     with pytest.raises(section.SectionError) as error:
-        long_slope(2500.0, seepage={"size": 2.5, "conductivity": 1e-5, "states": [FULL], **keys})
+        layer_on_a_plane(2500.0, seepage={"size": 2.5, "conductivity": 1e-5, "states": [FULL], **keys})
     said = str(error.value)
     assert all(part in said for part in parts) and "\n" not in said, said
 
@@ -224,7 +168,7 @@ def test_a_line_off_the_border_is_refused_when_the_run_begins():
     with pytest.raises(WaterError) as error:
         of_section.field(made)
     said = str(error.value)
-    assert said.startswith("section: water.seepage") and "m from all borders" in said and "\n" not in said
+    assert said.startswith("section: water.seepage") and "m from the layers' border" in said and "\n" not in said
 
 
 def test_conditions_without_a_head_are_refused():
@@ -235,5 +179,7 @@ def test_conditions_without_a_head_are_refused():
 
 def rims():
     """The free faces of the long slope."""
-    base, surface = ([[x, -x * math.tan(BETA) + up / math.cos(BETA)] for x in (-190.0, 0.0)] for up in (0.0, THICK))
+    base, surface = (
+        [[x, -x * math.tan(BETA) + up / math.cos(BETA)] for x in (-190.0, 0.0)] for up in (0.0, drawdown.THICK)
+    )
     return [[base[0], surface[0], surface[1], base[1]]]

@@ -167,6 +167,24 @@ def test_what_stays_in_the_plane_is_solved_there():
     assert O.forces.f(0)[1] == pytest.approx(-2 * O.bodies[1].state.mass * 9.81, rel=1e-6)
 
 
+def test_a_material_that_is_rigid_already_stays():
+    box_of_spheres()
+    own = NscdMat(density=2000, frictionAngle=0.1)  # of one body alone, and not among O.materials
+    O.bodies[-1].material = own
+    harden(O)
+    assert O.bodies[-1].material == own
+    assert all(isinstance(b.material, NscdMat) for b in O.bodies)
+
+
+def test_a_step_of_the_caller_s_own():
+    for step, expected in ((2e-4, 2e-4), ("soft", None)):
+        O.reset()
+        box_of_spheres()
+        soft_step = O.dt
+        harden(O, step=step)
+        assert O.dt == (expected or soft_step)
+
+
 def unchanged(state):
     return [type(b.material).__name__ for b in O.bodies], [type(e).__name__ for e in O.engines], O.dt
 

@@ -32,7 +32,9 @@ MODULES = (
     "triggers",
     "avalanche",
     "paper",
-    "water",
+    "water.seepage",
+    "water.drawdown",
+    "water.sections",
     "thermal",
 )
 

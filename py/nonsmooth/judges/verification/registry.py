@@ -34,6 +34,11 @@ class Check:
     quick_seconds: float | None  # the same with quick; None: left out of a quick run
     run: Callable[[Bench], object]
 
+    @property
+    def group(self) -> str:
+        """The module of this package that it stands in, "water" of water.seepage: ``--only`` takes all of it."""
+        return self.run.__module__.rpartition("verification.")[2].partition(".")[0]
+
 
 _checks: dict[str, Check] = {}
 

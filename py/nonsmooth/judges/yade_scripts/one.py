@@ -41,6 +41,9 @@ def run(script, sources, how="hard", steps=None, time=None, limit=120):
         result = Path(folder) / "result.json"
         words = ["--how", how, "--time", "" if time is None else repr(time)]
         words += [] if steps is None else ["--steps", str(steps)]
+        words += (
+            ["--keep-step"] if "checks" in home.parts else []
+        )  # they compare numbers at the times of their own steps
         command = [*installation.command(1), str(hard_script), *words, "--", home.name]
         environment = {**os.environ, _RESULT: str(result), "MPLBACKEND": "Agg", "OMP_WAIT_POLICY": "passive"}
         try:

@@ -279,7 +279,7 @@ def _kind(value) -> str:
 
 def _brief(value) -> str:
     if isinstance(value, (dict, list)):
-        return f"{_kind(value)} of {len(value)}"
+        return f"a list of {len(value)}" if isinstance(value, list) else f"a map of {len(value)} keys"
     if isinstance(value, int) and abs(value) > 10**60:  # Python writes no more than 4300 digits
         return f"a number of more than {int(0.3 * value.bit_length())} digits"
     text = repr(value)
@@ -312,9 +312,12 @@ def _explain(error, part=()) -> tuple[tuple, str, str]:
     if error.validator == "type" and error.validator_value == "integer" and isinstance(value, float):
         return keys, f"{value!r} is no whole number", needed
     if error.validator == "type":
-        return keys, f"{_brief(value)} is {_kind(value)}", needed
+        if value is None:
+            return keys, "is empty", needed
+        holds = isinstance(value, (dict, list))
+        return keys, f"holds {_brief(value)}" if holds else f"{_brief(value)} is {_kind(value)}", needed
     if error.validator in ("minItems", "maxItems", "minProperties", "maxProperties"):
-        return keys, f"has {len(value)} entries", needed
+        return keys, f"has {len(value)} entr{'y' if len(value) == 1 else 'ies'}", needed
     meant = section_units.hint(keys[-1], value) if keys and isinstance(value, (int, float)) else ""
     return keys, f"{_brief(value)} is not allowed", f"{needed}; {meant}" if meant else needed
 

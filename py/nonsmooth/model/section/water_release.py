@@ -16,7 +16,7 @@ def read(water, document) -> Release | None:
     raw = water.get("release", {"by": "slip"})
     if raw["by"] != "slip":
         return Release(raw["by"], **{k: float(v) for k, v in raw.items() if k != "by"})
-    for key in raw.keys() - {"by"}:
+    for key in (key for key in raw if key != "by"):
         document.refuse(
             ("water", "release", key),
             f"{raw[key]:g} does nothing where slip releases the water",

@@ -30,6 +30,7 @@ __all__ = [
     "PRESSURES",
     "SEEDS",
     "Entry",
+    "added",
     "check",
     "checks",
     "entries",
@@ -42,7 +43,7 @@ __all__ = [
     "variants",
 ]
 
-FRICTIONS = (0.1, 0.15, 0.2, 0.3, 0.45)
+FRICTIONS = (0.025, 0.05, 0.1, 0.15, 0.2, 0.3, 0.45)
 SEEDS = (1, 2, 3, 4, 5)
 COUNT = 1000  # disks; the peak of 2,000 is the same (biaxial_effects.py)
 PRESSURES = (0.4, 2.5, 10.0, 40.0)  # σ₃/σ_ext: about those of a calibration, 0.5 to 48 c
@@ -248,6 +249,16 @@ def table(found, others, command):
     return made | {
         "tables": [["Calibrated rocks", *rows(found)], ["The rock with μ_s = 0.3, otherwise", *rows(others)]]
     }
+
+
+def added(found, others, command):
+    """The shipped table with the rocks of ``found`` besides, in place of those with the same friction; they need its
+    seeds and its number of disks, as samples are taken to scatter alike. Arguments as of :func:`table`.
+    """
+    shipped = rocks.table()
+    new = {row["friction"] for row in found}
+    kept = [row for row in shipped["rocks"] if row["friction"] not in new]
+    return table([*kept, *found], [*shipped["variants"], *others], f"{shipped['command']}, then {command}")
 
 
 def left_out(found):

@@ -2,13 +2,14 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Mapping
 from dataclasses import asdict, dataclass, field, replace
 
 from ...course import strength_reduction
 from ...errors import UserError
-from ...model import materials as model_materials, scales
-from ...model.materials import QUANTITIES, REDUCED
+from ...model import materials as model_materials, rocks, scales
+from ...model.materials import ENVELOPE, QUANTITIES, REDUCED
 from ...model.section import Section, data as section_data
 from ...system import checks, keys
 from ...world import worlds
@@ -30,7 +31,8 @@ class Asked:
     diameters; ``numbers``: of :func:`.strength_reduction.rules`, ``step``, ``within``, ``most``, ``least``.
 
     Raises SafetyError, StrengthReductionError, WorldError or SoftError, naming it, for what cannot be used, and
-    SafetyError for a water table that never comes to stand (see :func:`standing`).
+    SafetyError for a water table that never comes to stand (see :func:`standing`), and for an envelope to be divided
+    in layers of rocks that the table does not have.
     """
 
     section: Section
@@ -54,6 +56,7 @@ class Asked:
         for name in self.numbers:
             if name not in known:
                 raise SafetyError(f"{name}: no number of a search; give some of {', '.join(known)}")
+        self._check_envelope()
         self.rules()
         self.make_world()
         if section.erosion:
@@ -83,6 +86,34 @@ class Asked:
         if len(set(given)) < len(given):
             raise SafetyError(f"{name} {', '.join(given)}: {remedy}")
         object.__setattr__(self, name, tuple(given))
+
+    def _check_envelope(self):
+        if ENVELOPE not in self.quantities:
+            return
+        if len(self.quantities) > 1:
+            beside = ", ".join(name for name in self.quantities if name != ENVELOPE)
+            raise SafetyError(
+                f"quantities {', '.join(self.quantities)}: the envelope is friction and cohesion of the rock, and "
+                f"stands alone; leave {beside} out"
+            )
+        for layer in self.section.layers:
+            name = layer.material
+            if name in self._chosen() and rocks.asked(self.section.materials[name]) is None:
+                low, high = rocks.interval()
+                raise SafetyError(
+                    f"quantities envelope: {name}, of the layer {layer.name}, is no rock of the table of calibrated "
+                    f"rocks; give it by cohesion [Pa] and friction_angle ({low:g} to {high:g} degrees), or divide "
+                    f"{', '.join(REDUCED)}"
+                )
+
+    def _chosen(self):
+        return self.section.materials if self.materials is None else self.materials
+
+    def _reach(self):
+        """The smallest and the largest factor that the table of calibrated rocks has for what is divided."""
+        found = [self.section.materials[name] for name in self._chosen()]
+        reach = [rocks.reach(m) for m in found if ENVELOPE in self.quantities and rocks.asked(m) is not None]
+        return max((low for low, _ in reach), default=0.0), min((high for _, high in reach), default=math.inf)
 
     @property
     def hard(self) -> bool:
@@ -114,14 +145,17 @@ class Asked:
         return made
 
     def rules(self):
-        """The :class:`.strength_reduction.Rules`."""
-        return strength_reduction.rules(self.section, scales.of(self.section), **self.numbers)
+        """The :class:`.strength_reduction.Rules`; factors stay within what the table of calibrated rocks has where it
+        is divided by.
+        """
+        made = strength_reduction.rules(self.section, scales.of(self.section), **self.numbers)
+        low, high = self._reach()
+        return replace(made, least=max(made.least, low), most=min(made.most, high))
 
     def strengths(self, factor) -> dict:
         """The materials of the section with what is asked for divided by a ``factor``: {name: section.Material}."""
-        chosen = self.section.materials if self.materials is None else self.materials
         return {
-            name: model_materials.divided(m, factor, self.quantities) if name in chosen else m
+            name: model_materials.divided(m, factor, self.quantities) if name in self._chosen() else m
             for name, m in self.section.materials.items()
         }
 

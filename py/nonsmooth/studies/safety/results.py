@@ -9,6 +9,7 @@ import numpy as np
 from ... import records
 from ...course import strength_reduction as reduction
 from ...measure import failing_mass
+from ...model.materials import ENVELOPE
 from ...system.whole_files import write_json
 
 __all__ = ["BEFORE", "FAILED", "RESTED", "SERIES", "STABLE", "START", "SUMMARY", "TRIAL", "says", "summarise"]
@@ -25,6 +26,12 @@ def says(summary) -> str:
     low, high = summary["factor_low"], summary["factor_high"]
     if summary["verdict"] == reduction.FOUND:
         return f"factor of safety {summary['factor']:.3f}: the slope stands at {low:.3f} and fails at {high:.3f}"
+    if ENVELOPE in summary["divided"] and summary["verdict"] in (reduction.STANDS, reduction.FALLS):
+        does, factor = ("stands", low) if summary["verdict"] == reduction.STANDS else ("fails", high)
+        return (
+            f"the slope {does} with the envelope of its rock divided by {factor:.3g}, as far as was asked, or as the "
+            "table of calibrated rocks goes"
+        )
     if summary["verdict"] == reduction.STANDS:
         return f"the slope stands for ever: it does so with its strengths divided by {low:.3g}"
     if summary["verdict"] == reduction.FALLS:

@@ -28,6 +28,7 @@ def asked(argv):
     parser.add_argument("--how", choices=("hard", "both", "soft"))
     parser.add_argument("--time", default="")
     parser.add_argument("--steps", type=int)
+    parser.add_argument("--keep-step", action="store_true")
     how = parser.parse_args(argv[1:at])
     try:
         how.time = float(how.time) if how.time else None
@@ -41,7 +42,12 @@ def asked(argv):
 
 def begin(how):
     """Watches the script's runs from here on."""
-    return Watch(hard=how.how == "hard", most=how.time, most_steps=how.steps).install()
+    return Watch(
+        hard=how.how == "hard",
+        most=how.time,
+        most_steps=how.steps,
+        options=dict(step="soft") if how.keep_step else None,
+    ).install()
 
 
 def end(how, watch, O):

@@ -19,6 +19,7 @@ from .strengths import hard_material, restitution_of
 __all__ = ["HardenError", "Hardened", "harden"]
 
 _PLANE = "zXY"
+_SPRINGS = ("VESupportEngine",)  # engines that need the step of springs
 _BOND = "from yade.nonsmooth.world.scene import contact_dynamics as _c; _c().bond()"
 
 
@@ -56,7 +57,8 @@ def harden(O, step=None, restitution=None, **options):
     that moves in the x-y plane alone (blockedDOFs "zXY") is solved there. Present interactions end, and are found
     again.
 
-    ``step``: O.dt [s]; None: a tenth of the smallest sphere's diameter is the longest way in a step. Engines that act
+    ``step``: O.dt [s]; "soft": it stays; None: a tenth of the smallest sphere's diameter is the longest way in a step,
+    or it stays where engines with springs of their own (VESupportEngine) are at work. Engines that act
     every so many steps act after the same time as before. ``restitution``: of all contacts, in place of what materials
     and functors say; ``options``: attributes of ContactDynamicsEngine.
 
@@ -86,17 +88,17 @@ def harden(O, step=None, restitution=None, **options):
             materials[soft].restitution = restitution
         told.append((f"{type(soft).__name__} {soft.label!r}", f"NscdMat: {became}"))
     soft_step = O.dt
-    step = _step(O, bodies, moving) if step is None else step
+    step = _step(O, bodies, moving) if step is None else soft_step if step == "soft" else step
     engines, rows = hard_engines(O.engines, shapes, in_plane, options)
     hear_energies()
 
     known = {soft.id: hard for soft, hard in materials.items()}
+    of_bodies = [(body, known[body.material.id]) for body in bodies if body.material is not None]
     for hard in known.values():
         if hard.id < 0:
             O.materials.append(hard)
-    for body in bodies:
-        if body.material is not None:
-            body.material = known[body.material.id]
+    for body, hard in of_bodies:
+        body.material = hard
     O.interactions.clear()
     if any(m.tensileStrength > 0 for m in known.values()):
         engines.append(PyRunner(command=_BOND, nDo=1, iterPeriod=1, initRun=True))
@@ -125,6 +127,8 @@ def _hard_alone(soft, **options):
 
 
 def _step(O, bodies, moving):
+    if any(type(e).__name__ in _SPRINGS and not e.dead for e in O.engines):
+        return O.dt
     newton = newton_of(O.engines)
     places = np.array([b.state.pos for b in bodies if b.bounded], float).reshape(-1, 3)
     finite = places[np.all(np.isfinite(places), axis=1)]

@@ -23,6 +23,9 @@ from .scene import harden
 __all__ = ["Watch", "YadeCheckError", "stand_ins"]
 
 
+_NONE_OF_IT = ("elastPotential", "nonviscDamp", "plastDissip")
+
+
 class Watch:
     """Sees to a script's runs. ``hard``: its contacts become rigid; False: it stays as it is, and is measured alone.
     ``most``: time [s], ``most_steps``: number of steps after which all of its runs end; None: when the script's do.
@@ -80,6 +83,9 @@ class Watch:
             self._soft_step = self._soft_step or omega.dt
             return
         self._soft_step = self._soft_step or omega.dt
+        if omega.trackEnergy:  # what springs and damping would have: scripts ask for it by name
+            for name in _NONE_OF_IT:
+                omega.energy[name] = 0.0
         before, self.hardened = self.hardened, None
         self.hardened = harden(omega, **self.options)
         self._soft_step = self.hardened.soft_step if before is None else self._soft_step
@@ -102,6 +108,10 @@ class Watch:
         if self.most_steps is not None:
             bounds.append(max(0, self.most_steps - self.steps))
         count = min([*bounds, *([steps] if steps >= 0 else [])], default=None)
+        if count is None and omega.stopAtIter > omega.iter:
+            count = self.steps_for(omega, omega.stopAtIter - omega.iter)
+        if count is None and omega.stopAtTime > omega.time:
+            count = max(1, round((omega.stopAtTime - omega.time) / omega.dt))
         if count is None:
             raise HardenError("the script runs without an end: give --time, the simulated time [s] after which it ends")
         begin, first = time.perf_counter(), omega.iter

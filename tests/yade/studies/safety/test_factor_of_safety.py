@@ -16,9 +16,10 @@ from shell import ROOT
 from yade import O
 from yade.nonsmooth import records, runs, section
 from yade.nonsmooth.course import driver, strength_reduction as reduction
+from yade.nonsmooth.model import materials, rocks
 from yade.nonsmooth.records import checkpoints
 from yade.nonsmooth.running import processes
-from yade.nonsmooth.studies.safety import asked as safety_asked, search
+from yade.nonsmooth.studies.safety import asked as safety_asked, results, search
 from yade.nonsmooth.studies.slope import slope, slope_packing
 
 SOFT = {"name": "soft", "stiffness": 1e9}
@@ -130,6 +131,58 @@ def test_materials_that_are_not_named_stay():
     assert asked.strengths(2.0)["rock"] == made.materials["rock"]
     assert asked.strengths(2.0)["plane"].friction == sliding_block.FRICTION / 2
     assert safety_asked.Asked(made).strengths(2.0)["rock"].friction == made.materials["rock"].friction / 2
+
+
+def test_a_divided_envelope_is_that_of_the_rocks_and_walls_keep_theirs():
+    """A rock of the table has the contacts for c/F and tan φ/F; a wall's own c and tan φ are divided."""
+    made = section.load("acads_1c")
+    asked = safety_asked.Asked(made, quantities=("envelope",))
+    less = asked.strengths(1.25)
+    for name in ("lower", "middle", "sand"):
+        assert less[name] == rocks.reduced(made.materials[name], 1.25), name
+        e, whole = less[name].envelope, made.materials[name].envelope
+        assert e.cohesion == pytest.approx(whole.cohesion / 1.25)
+        tan, before = (math.tan(math.radians(one.friction_deg)) for one in (e, whole))
+        assert tan == pytest.approx(before / 1.25)
+    assert less["rough"] == materials.divided(made.materials["rough"], 1.25)
+    assert asked.strengths(1.0) == dict(made.materials)
+    # some materials alone
+    one = safety_asked.Asked(made, quantities=("envelope",), materials=("sand",)).strengths(1.25)
+    assert one["lower"] == made.materials["lower"] and one["sand"] == less["sand"]
+
+
+def test_factors_stay_within_the_table_that_is_divided_by():
+    made = section.load("acads_1c")
+    asked = safety_asked.Asked(made, quantities=("envelope",))
+    reaches = [rocks.reach(made.materials[name]) for name in ("lower", "middle", "sand")]
+    rules = asked.rules()
+    assert rules.most == min(most for _, most in reaches) < 2 and rules.least == max(low for low, _ in reaches) > 0.6
+    for factor in (rules.most, rules.least):
+        assert asked.strengths(factor)
+    # what was asked for is no further, and other quantities know no table
+    near = safety_asked.Asked(made, quantities=("envelope",), numbers={"most": 1.2, "least": 0.95}).rules()
+    assert (near.most, near.least) == (1.2, 0.95)
+    assert safety_asked.Asked(made).rules().most == 10
+
+
+def test_a_search_that_comes_to_the_end_of_the_table_says_so():
+    told = {"divided": ["envelope"], "verdict": "stands", "factor_low": 1.7, "factor_high": None}
+    assert results.says(told).startswith("the slope stands with the envelope of its rock divided by 1.7, as far as was")
+    told |= {"verdict": "falls", "factor_low": None, "factor_high": 0.8}
+    assert results.says(told).startswith("the slope fails with the envelope of its rock divided by 0.8, as far as was")
+    told |= {"verdict": "found", "factor_low": 0.9, "factor_high": 0.92, "factor": 0.91}
+    assert results.says(told).startswith("factor of safety 0.910")
+
+
+def test_an_envelope_that_the_table_has_not_is_refused():
+    with pytest.raises(
+        safety_asked.SafetyError, match="soil, of the layer soil, is no rock of the table of calibrated"
+    ):
+        safety_asked.Asked(safety_asked.standing(section.load("circle"))[0], quantities=("envelope",))
+    with pytest.raises(safety_asked.SafetyError, match="stands alone; leave friction, tension out"):
+        safety_asked.Asked(section.load("acads_1a"), quantities=("friction", "envelope", "tension"))
+    # a layer that is not divided may be any rock
+    safety_asked.Asked(section.load("priest"), quantities=("envelope",), materials=("plane",))
 
 
 # ---- contacts that exist ----------------------------------------------------------------------------

@@ -44,9 +44,12 @@ def test_shipped_sections_are_listed(in_process):
 @pytest.mark.parametrize(
     "name, disks, end",
     [
+        ("acads_1a", 300, 5.0),
+        ("acads_1c", 300, 5.0),
         ("chair", 500, 9.4),
         ("circle", 500, 4.0),
         ("flume", 500, 0.7),
+        ("griffiths_lane", 300, 5.0),
         ("interface", 1500, 5.3),
         ("jiufengershan", 300, 0.5),
         ("rain", 500, 5.0),
@@ -71,9 +74,10 @@ def test_every_shipped_section_begins(name, disks, end, in_process, monkeypatch,
         return
     told = json.loads((out / "summary.json").read_text())
     assert told["times_s"]["t0"] is not None and told["failed_dry_s"] is None, told
-    assert {"force_chains.png", "forces.png", "snapshots.png", "weakening.png", "energy.png", "solver.png"} <= set(kept)
+    assert {"force_chains.png", "forces.png", "snapshots.png", "energy.png", "solver.png"} <= set(kept)
     assert ("water.png" in kept) == (made.water_field is not None)
-    assert [ax.get_ylabel() for ax in kept["weakening.png"].axes] == [
+    assert ("weakening.png" in kept) == bool(made.weakening)
+    assert [ax.get_ylabel() for ax in (kept["weakening.png"].axes if made.weakening else ())] == [
         f"along {one.name},\nfrom its upper end [m]" for one in made.weakening
     ]
     names = [style.plain(wall.name) for wall in made.walls]

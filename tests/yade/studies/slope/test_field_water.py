@@ -10,6 +10,7 @@ from yade.nonsmooth import experiment, records, section, tables, worlds
 from yade.nonsmooth.model.section.folder import SCHEMA
 from yade.nonsmooth.model.section.reader import read
 from yade.nonsmooth.commands import section_arguments
+from yade.nonsmooth.judges.verification.water.sections import displaced, uplift
 from yade.nonsmooth.studies.safety import asked
 from yade.nonsmooth.studies.slope import slope
 from yade.nonsmooth.water import field_files, forces
@@ -81,11 +82,9 @@ def test_still_water_under_a_reservoir_carries_the_displaced_weight(tmp_path):
     """Disks whose centres lie in the layers, stick out of the face or lie in the water above it: all the same."""
     course = experiment.begin(made(LAKE), tmp_path)
     course.run(end=0.6)
-    t, water = tables.bodies(course.slope.solver), course.slope.water
-    phi, below = course.section.disks.packing_fraction, t["y"] < 8.0
-    weight = 9810 * np.pi * (t["r"][below] ** 2).sum() / phi
-    assert 0 < below.sum() < len(below) and water.wetCount == below.sum()
-    assert tuple(water.totalForce)[:2] == pytest.approx((0.0, weight), rel=1e-10, abs=1e-10 * weight)
+    weight, below, count = displaced(course, 8.0)
+    assert 0 < below < count and course.slope.water.wetCount == below
+    assert uplift(course) == pytest.approx((0.0, weight), rel=1e-10, abs=1e-10 * weight)
 
 
 def test_disks_in_a_reservoir_bear_the_same_as_those_in_the_ground(tmp_path):
@@ -140,9 +139,8 @@ def test_soft_contacts_have_the_same_water(tmp_path):
     chosen = made(LAKE, settle={"ramp": 0.3, "time_max": 0.4, "speed_rest": 0.01}, dry=0.02)
     course = experiment.begin(chosen, tmp_path, world=world)
     course.run(end=0.5)
-    t, water = tables.bodies(course.slope.solver), course.slope.water
-    weight = 9810 * np.pi * (t["r"][t["y"] < 8.0] ** 2).sum() / course.section.disks.packing_fraction
-    assert course.state.stage == "water" and water.totalForce[1] == pytest.approx(weight, rel=1e-10)
+    weight, *_ = displaced(course, 8.0)
+    assert course.state.stage == "water" and uplift(course)[1] == pytest.approx(weight, rel=1e-10)
 
 
 def test_a_slope_that_fails_dry_gets_no_water(tmp_path):
@@ -186,13 +184,11 @@ def test_seepage_under_a_reservoir_carries_the_displaced_weight(tmp_path):
     water = {"volume": "bulk", "seepage": {"size": 1.5, "conductivity": 1e-5, "states": states}}
     course = experiment.begin(made(water), tmp_path)
     course.run(end=0.56)
-    t, engine = tables.bodies(course.slope.solver), course.slope.water
-    phi, below = course.section.disks.packing_fraction, t["y"] < 8.0
-    weight = 9810 * np.pi * (t["r"][below] ** 2).sum() / phi
-    assert 0 < below.sum() < len(below) and engine.wetCount == below.sum()
-    assert tuple(engine.totalForce)[:2] == pytest.approx((0.0, weight), rel=1e-10, abs=1e-10 * weight)
+    weight, below, count = displaced(course, 8.0)
+    assert 0 < below < count and course.slope.water.wetCount == below
+    assert uplift(course) == pytest.approx((0.0, weight), rel=1e-10, abs=1e-10 * weight)
     course.run(end=0.9)
-    assert engine.totalForce[0] > 0.1 * weight and 0.5 * weight < engine.totalForce[1] < weight
+    assert uplift(course)[0] > 0.1 * weight and 0.5 * weight < uplift(course)[1] < weight
 
 
 def test_rates_and_heights_of_a_table_are_refused():

@@ -13,12 +13,12 @@ from matplotlib.figure import Figure
 from scipy import sparse
 from scipy.sparse.linalg import spsolve
 
-from ...figures import water as water_figures
-from ...water import fields, forces, seepage
-from ...water.conditions import Head, PressureHead, Rain, Reservoir, SeepageFace
-from ...water.mesh import Mesh, grid
-from .claims import Claims, Findings
-from .registry import check
+from ....figures import water as water_figures
+from ....water import fields, forces, seepage
+from ....water.conditions import Head, PressureHead, Rain, Reservoir, SeepageFace
+from ....water.mesh import Mesh, grid
+from ..claims import Claims, Findings
+from ..registry import check
 
 BLUE, RED, GREY = "#0072B2", "#D55E00", "#777777"
 GAMMA = fields.UNIT_WEIGHT

@@ -1,0 +1,1 @@
+"""Water: how it seeps, what it does to disks, and what a section makes of it."""
