@@ -189,8 +189,8 @@ TEST(SlipFlash, TheZonesHeatLowersItsVelocity)
 TEST(SlipFlash, ALagIsBySlip)
 {
 	Driven one({ "flash_heating" }, with(flash(20), { { "slip_lag", { 0.1 } } }), 1); // a stress that heats nothing
-	one.slip(1, 1e-2, 10);
-	EXPECT_NEAR(*one.column("friction"), 0.21894 + (0.6 - 0.21894) / std::exp(1), 1e-4); // 0.1 m: one lag
+	one.slip(2, 1e-2, 5);
+	EXPECT_NEAR(*one.column("friction"), 0.16947 + (0.6 - 0.16947) / std::exp(1), 1e-4); // 0.1 m: one lag
 }
 
 TEST(SlipFlash, WeakensTheZoneThatIsPressed)
@@ -223,8 +223,8 @@ TEST(SlipDecomposition, TheReactionCapsTheTemperature)
 			Driven one({ "decomposition" }, calcite(order), 3e6); // τ = 1.5 MPa
 			for (int k = 0; k < 100000 && one.mean("reacted") < 0.1; ++k)
 				one.slip(v, 1e-3 / v, 1);
-			EXPECT_NEAR(
-			        one.mean("temperature"), cap, order ? 4 : 0.01); // 10 % less to react lifts it by 3 K
+			// that 10 % less is left to react lifts it by 3 K
+			EXPECT_NEAR(one.mean("temperature"), cap + (order ? 2.8 : 0), order ? 0.4 : 0.01);
 			EXPECT_NEAR(one.kept(), 1, 1e-12);
 		}
 }
