@@ -28,6 +28,7 @@ OTHERS = (
     "sweeps-by-thickness",
     "collapse-of-rounded-places",
     "priests-block",
+    "published-slopes",
     "shaken-blocks",
     "shaken-slope",
     "shaken-frames",

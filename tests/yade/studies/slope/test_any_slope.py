@@ -89,7 +89,7 @@ def test_every_shipped_section_begins(name, disks, end, in_process, monkeypatch,
     labels = {line.get_label() for ax in kept["forces.png"].axes for line in ax.lines}
     assert (
         made.water is None
-        and any("$N$ (" in label for label in labels)
+        and any("$N$ (" in label or label.startswith("$N_") for label in labels)
         or any(
             label.startswith("$N'$" if "," in kept["forces.png"].texts[0].get_text() else "$N'_") or "$N'$ (" in label
             for label in labels
