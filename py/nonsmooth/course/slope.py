@@ -10,13 +10,13 @@ Rules:
   mean speed is 0.2 m/s at t0, or comes to that without having been below 0.02 m/s since. The water does not rise, or no
   further; the slope is followed until it rests. What moved it, its weight or something else, says
   :mod:`yade.nonsmooth.studies.slope.verdict`;
-* t0: the dry rest ends, the water begins to rise, and the times of other triggers
-  (:mod:`yade.nonsmooth.course.triggers`) count from here;
+* t0: the dry rest ends, the water begins to rise, and the times of triggers (:mod:`yade.nonsmooth.course.triggers`)
+  count from here;
 * moving, t2: the mean speed reaches 0.2 m/s: the slope no longer just follows the water. With ``water.hold: motion``
   the table stays where it is from here on, and the solver's tolerance is ``tolerance_moving``, until the mean speed is
   down to a tenth of its maximum; from there it falls with the speed, down to ``tolerance``. A slope that comes to rest
   again without having got going does not count as moving: the table then goes on rising;
-* still: the slope does not move, its water table has stood at one height for 5 s, and no other trigger or window acts:
+* still: the slope does not move, its water table has stood at one height for 5 s, and no trigger acts:
   the tolerance is a quarter of ``tolerance``, since nothing but the solver's error is left to move a disk, and over a
   minute a looser solve breaks a bond or two that bear all they can;
 * a field of water (lines, files, seepage) has its states at their times since t0, whether the slope moves or not; as
@@ -29,8 +29,7 @@ Rules:
 * end: the mean speed has been below ``rest_fraction`` of its maximum for ``rest_hold`` seconds, or the slope stands and
   nothing is left that could change it, or ``end.time`` has passed. It stands where for 5 s, and for ``rest_hold``
   seconds more, the mean speed has been no more than ``stages.settle.speed_rest``, no bond broke and no other disk got
-  wet, no window takes disks out any more (:mod:`yade.nonsmooth.course.erosion`), and the water table stays where it is
-  or above all disks; a script that may do more to it says so. While a trigger acts or is to come, or a window that does
+  wet, no trigger acts or may any more, and the water table stays where it is or above all disks; a script that may do more to it says so. While a trigger acts or is to come, or a window that does
   not hold takes disks out, neither counts as its end.
 """
 
@@ -39,7 +38,8 @@ from __future__ import annotations
 import math
 from dataclasses import dataclass, field, replace
 
-from . import erosion, triggers
+from . import triggers
+from .triggers import erosion, shaking
 
 __all__ = [
     "COLLAPSED",
@@ -242,9 +242,8 @@ def _quieted(s, seen, section):
 
 
 def _load_is_last(s, seen, section):
-    """Whether no trigger acts or will, no state of a field of water is to come, and no window may take a disk."""
-    over = triggers.over(section, loads_since(s), seen.time)
-    return over and not seen.coming and not erosion.may_take(s, seen.step, section)
+    """Whether no trigger acts or may any more, and no state of a field of water is to come."""
+    return triggers.over(s, seen, section) and not seen.coming
 
 
 def _load_stays(s, seen, section):
@@ -261,8 +260,8 @@ def _load_stays(s, seen, section):
 
 
 def loads_since(state):
-    """The time from which triggers count [s], see :func:`yade.nonsmooth.course.triggers.since`."""
-    return triggers.since(state.t0, state.failed_dry)
+    """The time from which an earthquake counts [s], see :func:`yade.nonsmooth.course.triggers.shaking.since`."""
+    return shaking.since(state.t0, state.failed_dry)
 
 
 def stands(state, seen, section, scales):
@@ -315,8 +314,7 @@ def care(state, seen, section, scales):
         0.0 if state.moving is None else flowing(seen.speed, state.speed_max),
         state.moving is None
         and seen.time - state.table_since >= scales.still_seconds
-        and not triggers.acting(section, loads_since(state), seen.time)
-        and not erosion.acting(state, seen.step, section),
+        and not triggers.acting(state, seen, section),
     )
 
 
@@ -355,7 +353,7 @@ def foreseen(state, time, section):
     if state.stage == "done":
         return time
     settled = state.settled if state.settled is not None else max(SETTLING, time)
-    shaken = max([0.0, *(end for _, end in triggers.spans(section).values())])  # s since t0
+    shaken = shaking.lasts(section)
     if state.moving is not None:
         last = max(state.moving + MOTION, state.t0 + shaken)
         return max(min(last, settled + stages.end.time), time)

@@ -2,7 +2,7 @@
 from mutant import mutant
 
 PY = "py/nonsmooth/"
-WINDOWS, RULES, WORLD = (PY + name for name in ("model/section/erosion.py", "course/erosion.py", "world/erosion.py"))
+WINDOWS, RULES, WORLD = (PY + name for name in ("model/section/erosion.py", "course/triggers/erosion.py", "world/erosion.py"))
 ERODING, MONITOR, VERDICT, SNAPSHOTS = (
     PY + name for name in ("studies/slope/eroding.py", "studies/slope/monitoring.py", "studies/slope/verdict.py", "records/snapshots.py")
 )
@@ -43,11 +43,11 @@ MUTANTS = (
            COURSE + "::test_it_stands_still_twice"),
     mutant("erosion-over", PY + "course/slope.py", "    if not _load_is_last(s, seen, section):", "    if False:", "a slope is over before its window opens",
            COURSE + "::test_a_slope_is_not_over_while_a_window_may_yet_take"),
-    mutant("erosion-rest", PY + "course/slope.py", " and not erosion.may_take(s, seen.step, section)", "", "an avalanche is over while a river goes on",
+    mutant("erosion-rest", RULES, "state.failed_dry is not None or all(_over(window, state, seen.step) for window in goes_on)", "True", "an avalanche is over while a river goes on",
            COURSE + "::test_an_avalanche_is_over_while_a_window_that_holds_waits_and_not_while_another_takes"),
     mutant("erosion-waits-moving", RULES, 'w.hold == "never" or state.moving is None', "True", "a window that holds keeps an avalanche's run from its end",
            COURSE + "::test_an_avalanche_is_over_while_a_window_that_holds_waits_and_not_while_another_takes"),
-    mutant("erosion-still", PY + "course/slope.py", "\n        and not erosion.acting(state, seen.step, section)", "", "contacts are solved as of a still slope while disks go",
+    mutant("erosion-still", RULES, "any(w.name in state.erosion_taken and not _over(w, state, seen.step) for w in section.erosion)", "False", "contacts are solved as of a still slope while disks go",
            COURSE + "::test_a_slope_from_which_disks_are_taken_is_not_still"),
     mutant("erosion-slip", PY + "measure/surface_slip.py", "values = values[~np.isnan(values)]", "pass", "a surface has no displacement once a disk on it is gone",
            "plain:test_surface_slip.py::test_a_disk_that_is_gone_counts_no_longer"),

@@ -37,7 +37,7 @@ MUTANTS = (
     # ---- a run
     mutant("water-begin", RULES, "None if section.water_field is None or state.water_hold is not None else state.t0", "None if section.water_field is None else state.t0",
            "a slope that failed dry gets wet", RUN + "::test_a_slope_that_fails_dry_gets_no_water"),
-    mutant("water-coming", RULES, "return over and not seen.coming and", "return over and", "a slope stands before the last state of its water",
+    mutant("water-coming", RULES, "return triggers.over(s, seen, section) and not seen.coming", "return triggers.over(s, seen, section)", "a slope stands before the last state of its water",
            "plain:test_course.py::test_while_states_of_a_field_of_water_are_to_come_it_neither_stands_nor_is_still"),
     mutant("water-still", RULES, "if height == s.table and not seen.coming else", "if height == s.table else", "a slope is still while its water rises", RUN + "::test_a_slope_stands_only_after_the_last_state"),
     mutant("water-kept", COURSE, "field_files.read(Path(folder) / of_section.FILE)", "of_section.field(section)", "a resumed run wants the file again", RUN + "::test_a_run_does_not_need_the_file_of_its_field_again"),

@@ -3,7 +3,7 @@ from mutant import mutant
 
 PY = "py/nonsmooth/"
 MOTION, READING, SYNTHETIC = (PY + f"model/ground_motion/{name}.py" for name in ("motion", "reading", "synthetic"))
-TRIGGERS, RULES, SURFACE = PY + "course/triggers.py", PY + "course/slope.py", PY + "measure/surface_slip.py"
+TRIGGERS, RULES, SURFACE = PY + "course/triggers/shaking.py", PY + "course/slope.py", PY + "measure/surface_slip.py"
 SECTION, EXPERIMENT = PY + "model/section/shaking.py", PY + "studies/slope/experiment.py"
 NEWMARK, FIGURE = PY + "measure/newmark.py", PY + "figures/shaking.py"
 GROUND, FILES, BLOCK, DRAWN = (f"plain:test_{name}.py" for name in ("ground_motion", "ground_motion_files", "newmark", "figures_shaking"))
@@ -57,13 +57,13 @@ MUTANTS = (
     mutant("shaking-drift", FIGURE, "np.ravel(values[-1])[0]", "np.ravel(values[-1])[-1]", "the drift that is told is the vertical one", f"{DRAWN}::test_what_is_left_at_the_end_of_the_record_is_told"),
     mutant("shaking-end", FIGURE, "last = max([time[-1], *", "last = min([time[-1], *", "slips after the record are cut off", f"{DRAWN}::test_slips_that_go_on_after_the_record_are_shown_to_their_end"),
     # ---- a slope that shakes
-    mutant("shaken-begun", TRIGGERS, "if time > start + begin", "if time > start", "a trigger acts from t0 on, whenever it begins", "plain:test_triggers.py"),
-    mutant("shaken-acting", TRIGGERS, "if time < start + spans(section)[name][1]", "", "a trigger never ends", "plain:test_triggers.py"),
-    mutant("shaken-over", TRIGGERS, "all(time >= start + end", "any(time >= start", "a run does not wait for the record", "plain:test_triggers.py"),
+    mutant("shaken-begun", TRIGGERS, "time > start + section.shaking.begin", "time > start", "a trigger acts from t0 on, whenever it begins", "plain:test_triggers.py"),
+    mutant("shaken-acting", TRIGGERS, " and time < start + section.shaking.end", "", "a trigger never ends", "plain:test_triggers.py"),
+    mutant("shaken-over", TRIGGERS, "seen.time >= start + section.shaking.end", "seen.time >= start", "a run does not wait for the record", "plain:test_triggers.py"),
     mutant("shaken-dry", TRIGGERS, "failed_dry is not None and failed_dry <= t0", "False", "a slope that failed by its weight is shaken as well", "plain:test_triggers.py"),
     mutant("shaken-rest", RULES, "since) and _load_is_last(s, seen, section)", "since)", "a slope that rests amid a record ends the run", "plain:test_triggers.py"),
-    mutant("shaken-still", RULES, "\n        and not triggers.acting(section, loads_since(state), seen.time)", "", "contacts are solved as of a still slope while it shakes", "plain:test_triggers.py"),
-    mutant("shaken-quiet", RULES, "over = triggers.over(section, loads_since(s), seen.time)", "over = True", "a slope that stands before the first shock ends the run", "plain:test_triggers.py"),
+    mutant("shaken-still", RULES, "\n        and not triggers.acting(state, seen, section)", "", "contacts are solved as of a still slope while it shakes", "plain:test_triggers.py"),
+    mutant("shaken-quiet", PY + "course/triggers/__init__.py", "KINDS = (shaking, erosion)", "KINDS = (erosion,)", "a slope that stands before the first shock ends the run", "plain:test_triggers.py"),
     mutant("shaken-foreseen", RULES, "last = max(state.moving + MOTION, state.t0 + shaken)", "last = state.moving + MOTION", "the bar ends before the record", "plain:test_triggers.py"),
     mutant("slip-across", SURFACE, "(begin.layer[a] == upper) & (begin.layer[b] == lower)", "(begin.layer[a] == lower) & (begin.layer[b] == upper)", "the lower layer slips over the upper one",
            "plain:test_surface_slip.py"),
@@ -88,6 +88,6 @@ MUTANTS = (
            "test_shaken_slopes.py::test_another_record_does_not_resume_it"),
     mutant("shaken-outside", PY + "studies/slope/monitoring.py", "0.0 if wet or shaken else", "0.0 if wet else", "the ground's work is taken for a script's",
            "test_shaken_slopes.py::test_what_moves_while_it_shakes_has_failed_by_shaking"),
-    mutant("shaken-cause", PY + "studies/slope/verdict.py", "(triggers.acting if eroded or _wet(series, moved) else triggers.begun)", "triggers.acting", "what moves off dry after the record failed by its weight",
+    mutant("shaken-cause", PY + "studies/slope/verdict.py", "(shaking.shakes if eroded or _wet(series, moved) else shaking.began)", "shaking.shakes", "what moves off dry after the record failed by its weight",
            "plain:test_verdict.py"),
 )

@@ -98,7 +98,7 @@ def test_the_module_needs_no_yade():
         if isinstance(node, ast.ImportFrom)
     }
     # of the room, by the first of their names
-    assert imported == {"__future__", "math", "dataclasses", "erosion"}
+    assert imported == {"__future__", "math", "dataclasses", "triggers"}
 
 
 # ---- settling and dry rest --------------------------------------------------------------------------

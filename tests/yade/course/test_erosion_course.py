@@ -11,7 +11,7 @@ import synthetic_slope as synthetic  # noqa: E402
 from test_course import STEP, steps  # noqa: E402
 
 course, erosion, scales, section = (
-    synthetic.load(name) for name in ("course", "course.erosion", "model.scales", "model.section")
+    synthetic.load(name) for name in ("course", "course.triggers.erosion", "model.scales", "model.section")
 )
 SHIPPED = section.load("jiufengershan")
 SQUARE = ((0.0, 0.0), (9.0, 0.0), (9.0, 9.0), (0.0, 9.0))

@@ -9,8 +9,9 @@ import pytest
 sys.path.insert(0, str(Path(__file__).resolve().parents[2]))
 import synthetic_slope as synthetic  # noqa: E402
 
-course, triggers, scales, section = (
-    synthetic.load(name) for name in ("course", "course.triggers", "model.scales", "model.section")
+course, triggers, shaking, scales, section = (
+    synthetic.load(name)
+    for name in ("course", "course.triggers", "course.triggers.shaking", "model.scales", "model.section")
 )
 DRY = section.load("jiufengershan_shaken")  # 30 s from 1 s after t0 on
 T0, BEGIN, END = 7.0, 8.0, 38.0
@@ -19,27 +20,40 @@ REST = 1e-4  # m/s
 
 def test_a_slope_without_triggers_has_none():
     other = section.load("circle")
-    assert triggers.spans(other) == {} and triggers.begun(other, T0, 1e9) == () and triggers.over(other, T0, 0.0)
+    assert shaking.lasts(other) == 0 and not shaking.began(other, T0, 1e9)
+    for time in (T0, 1e9):
+        seen = course.Seen(time, 0.01, REST)
+        assert triggers.over(state(), seen, other) and not triggers.acting(state(), seen, other)
 
 
 def test_times_count_from_t0():
-    assert triggers.spans(DRY) == {"shaking": (1.0, 31.0)}
-    for time, begun, acting, over in (
-        (T0, (), (), False),
-        (BEGIN, (), (), False),
-        (BEGIN + 0.1, ("shaking",), ("shaking",), False),
-        (END - 0.1, ("shaking",), ("shaking",), False),
-        (END, ("shaking",), (), True),
-        (END + 9, ("shaking",), (), True),
+    assert shaking.lasts(DRY) == 31.0
+    for time, began, acting, over in (
+        (T0, False, False, False),
+        (BEGIN, False, False, False),
+        (BEGIN + 0.1, True, True, False),
+        (END - 0.1, True, True, False),
+        (END, True, False, True),
+        (END + 9, True, False, True),
     ):
-        told = (triggers.begun(DRY, T0, time), triggers.acting(DRY, T0, time), triggers.over(DRY, T0, time))
-        assert told == (begun, acting, over), time
+        seen = course.Seen(time, 0.01, REST)
+        told = (shaking.began(DRY, T0, time), triggers.acting(state(), seen, DRY), triggers.over(state(), seen, DRY))
+        assert told == (began, acting, over), time
+        assert shaking.shakes(DRY, T0, time) is acting
 
 
 def test_nothing_begins_before_t0_nor_on_a_slope_that_failed_before():
-    assert triggers.since(None, None) is None and triggers.since(7.0, 3.0) is None and triggers.since(7.0, 7.0) is None
-    assert triggers.since(7.0, None) == 7.0 and triggers.since(7.0, 9.0) == 7.0  # one that failed later
-    assert triggers.begun(DRY, None, 50.0) == () and triggers.over(DRY, None, 0.0)
+    assert shaking.since(None, None) is None and shaking.since(7.0, 3.0) is None and shaking.since(7.0, 7.0) is None
+    assert shaking.since(7.0, None) == 7.0 and shaking.since(7.0, 9.0) == 7.0  # one that failed later
+    assert not shaking.began(DRY, None, 50.0)
+    for before in (state(t0=None), state(failed_dry=3.0)):
+        seen = course.Seen(BEGIN + 1, 0.01, REST)
+        assert triggers.over(before, seen, DRY) and not triggers.acting(before, seen, DRY)
+
+
+def test_each_kind_answers_the_same_questions():
+    for kind in triggers.KINDS:
+        assert {"over", "acting"} <= set(kind.__all__)
 
 
 def state(**values):

@@ -36,6 +36,7 @@ OTHERS = (
     "still-water-on-a-face",
     "states-in-time",
     "parallel-seepage",
+    "vertical-cuts",
     "floating-grains",
 )
 QUICK = [c.name for c in ALL.values() if c.group in OURS and c.name not in OTHERS and c.quick_seconds is not None]

@@ -30,6 +30,7 @@ MODULES = (
     "collapse",
     "safety",
     "triggers",
+    "cuts",
     "avalanche",
     "paper",
     "water.seepage",

@@ -23,7 +23,8 @@ from yade.minieigenHP import Vector3
 from yade.wrapper import NewtonIntegrator, PartialEngine, PyRunner
 
 from ... import course, records
-from ...course import State, driver, erosion
+from ...course import State, driver
+from ...course.triggers import erosion
 from ...errors import UserError
 from ...model import scales
 from ...model.section import Section, data as section_data

@@ -9,7 +9,7 @@ import numpy as np
 from yade import O
 
 from ... import course, packing, records
-from ...course import triggers
+from ...course.triggers import shaking
 from ...measure import surface_slip
 from ...measure.fronts import front_of
 from ...measure.pressure_heads import SlipHeads
@@ -170,7 +170,7 @@ class SlopeMonitor:
         if not self.hard:
             return None
         wet = state.wet or (self.slope.water is not None and self.slope.water.wetCount > 0)
-        shaken = triggers.begun(self.section, course.loads_since(state), O.time)
+        shaken = shaking.began(self.section, course.loads_since(state), O.time)
         brought = 0.0 if state.stage == "settle" else abs(self._brought(e))
         return brought + abs(e.wallWork) + (0.0 if wet or shaken else abs(e.externalWork))
 

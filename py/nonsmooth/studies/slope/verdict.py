@@ -12,7 +12,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from ... import course, records
-from ...course import triggers
+from ...course.triggers import shaking
 from ...measure import centroid
 from ...model import scales
 
@@ -81,10 +81,10 @@ def of(series, section, state, times, disks=None) -> Verdict:
         if times["t5"] is not None
         else f"; it had not come to rest at {last:.1f} s, when the run {'ended' if over else 'was stopped'}"
     )
-    start = triggers.since(state.get("t0"), state.get("failed_dry"))
+    start = shaking.since(state.get("t0"), state.get("failed_dry"))
     eroded = state.get("failed_dry") is None and _eroded(series, moved)
     # what moves after the record, in water or eroded, is not the record's
-    shaken = (triggers.acting if eroded or _wet(series, moved) else triggers.begun)(section, start, moved)
+    shaken = (shaking.shakes if eroded or _wet(series, moved) else shaking.began)(section, start, moved)
     if not shaken and (state.get("failed_dry") is not None or not (eroded or _wet(series, moved))):
         return _dry(series, section, state, moved, rest)
     fast = float(np.max(series["speed_mean_m_per_s"][series["time_s"] >= moved - 1e-9]))

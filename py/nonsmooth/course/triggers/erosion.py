@@ -14,7 +14,7 @@ from __future__ import annotations
 
 from dataclasses import replace
 
-__all__ = ["acting", "clock", "due", "may_take", "noted"]
+__all__ = ["acting", "clock", "due", "noted", "over"]
 
 
 def clock(window, state, time) -> float:
@@ -48,17 +48,15 @@ def due(before, state, section) -> list:
     return [(w, now[w.name]) for w in section.erosion if w.name in now and now[w.name] != last.get(w.name)]
 
 
-def may_take(state, step, section) -> bool:
-    """Whether a window may yet take disks, of those that do not hold where the slope moves; ``step`` [s]: of the
-    simulation.
-    """
+def over(state, seen, section) -> bool:
+    """Whether no window takes disks any more, of those that do not hold where the slope moves."""
     goes_on = [w for w in section.erosion if w.hold == "never" or state.moving is None]
-    return state.failed_dry is None and any(not _over(window, state, step) for window in goes_on)
+    return state.failed_dry is not None or all(_over(window, state, seen.step) for window in goes_on)
 
 
-def acting(state, step, section) -> bool:
-    """Whether a window has begun to take disks and goes on; ``step`` [s]: of the simulation."""
-    return any(w.name in state.erosion_taken and not _over(w, state, step) for w in section.erosion)
+def acting(state, seen, section) -> bool:
+    """Whether a window has begun to take disks and goes on."""
+    return any(w.name in state.erosion_taken and not _over(w, state, seen.step) for w in section.erosion)
 
 
 def _over(window, state, step):
