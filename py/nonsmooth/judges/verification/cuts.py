@@ -201,10 +201,7 @@ def vertical_cuts(bench):
         "Cuts that fail; colours: how far disks have gone, up to 3 m. Lines: 0.9, 1 and 1.15 of the predicted height."
     )
     title = f"Heights of vertical cuts, by the predicted {predicted():.1f} m, {disks:,} disks"
-    numbers = {
-        "heights_rel": heights,
-        "blocks_rel": blocks,
-    }
+    numbers = {"heights_rel": heights, "blocks_rel": blocks}
     remark = (
         f"Wanted is that cuts fail by {FAILS:g} of the predicted height. They failed at "
         f"{', '.join(map(_told, heights))} of it: nothing is claimed of that."
