@@ -9,7 +9,7 @@ namespace yade {
 YADE_PLUGIN((GroundMotionEngine));
 
 namespace {
-	[[noreturn]] void refuse(const string& why) { throw std::invalid_argument("GroundMotionEngine: " + why); }
+	[[noreturn]] void refuseMotion(const string& why) { throw std::invalid_argument("GroundMotionEngine: " + why); }
 }
 
 void GroundMotionEngine::validate() const
@@ -19,8 +19,9 @@ void GroundMotionEngine::validate() const
 		nscd::requireNumbers("GroundMotionEngine", name, *values);
 	for (const auto& [name, values] : { std::pair("horizontal", &horizontal), std::pair("vertical", &vertical) })
 		if (!values->empty() && values->size() != times.size())
-			refuse(string(name) + " has " + std::to_string(values->size()) + " entries and times "
-			       + std::to_string(times.size()) + ": give an acceleration for each time, or none");
+			refuseMotion(
+			        string(name) + " has " + std::to_string(values->size()) + " entries and times "
+			        + std::to_string(times.size()) + ": give an acceleration for each time, or none");
 	nscd::requireRising("GroundMotionEngine", times, true);
 }
 
@@ -55,11 +56,12 @@ void GroundMotionEngine::action()
 	auto& bodies = turn.resident().bodies;
 	for (const Body::id_t id : ids) {
 		if (id < 0 || id >= (Body::id_t)bodies.size() || !bodies[id].present)
-			refuse("ids has " + std::to_string(id) + ": there is no such body");
+			refuseMotion("ids has " + std::to_string(id) + ": there is no such body");
 		auto& b = bodies[id];
 		if ((b.blocked & nscd::inPlane) != nscd::inPlane)
-			refuse("ids has " + std::to_string(id)
-			       + ": that body is free to move; give walls, and others whose motion in the plane is blocked");
+			refuseMotion(
+			        "ids has " + std::to_string(id)
+			        + ": that body is free to move; give walls, and others whose motion in the plane is blocked");
 		b.motion.velocity.x = velocity[0];
 		b.motion.velocity.y = velocity[1];
 		b.moved             = true;

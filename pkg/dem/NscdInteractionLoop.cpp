@@ -7,6 +7,7 @@
 #include "Segment.hpp"
 #include "StageClock.hpp"
 #include "WallJoints.hpp"
+#include "UnguardedHeaders.hpp"
 #include "YadeFeatures.hpp"
 #include "seam/Resident.hpp"
 #include <contact/plane/disk_contact.hpp>
@@ -14,7 +15,6 @@
 #include <core/Scene.hpp>
 #include <neighbours/thread_part.hpp>
 #include <pkg/common/Sphere.hpp>
-#include <pkg/dem/DomainLimiter.hpp>
 #include <pkg/dem/Ig2_Sphere_Sphere_ScGeom.hpp>
 #include <pkg/dem/ScGeom.hpp>
 

@@ -17,7 +17,6 @@ namespace yade {
 YADE_PLUGIN((PlanarGridCollider));
 
 namespace {
-	using nonsmooth::neighbours::Box;
 	using nonsmooth::neighbours::Disk;
 	using nonsmooth::neighbours::isNear;
 	using nonsmooth::neighbours::partOfThread;

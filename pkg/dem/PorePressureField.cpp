@@ -8,29 +8,32 @@ namespace yade {
 YADE_PLUGIN((PorePressureField));
 
 namespace {
-	[[noreturn]] void refuse(const string& why) { throw std::invalid_argument("PorePressureField: " + why); }
+	[[noreturn]] void refuseField(const string& why) { throw std::invalid_argument("PorePressureField: " + why); }
 }
 
 void PorePressureField::validate() const
 {
 	if (nodes.empty() || triangles.empty())
-		refuse("nodes has " + std::to_string(nodes.size()) + " entries and triangles "
-		       + std::to_string(triangles.size()) + ": give points, and triangles between them");
+		refuseField(
+		        "nodes has " + std::to_string(nodes.size()) + " entries and triangles "
+		        + std::to_string(triangles.size()) + ": give points, and triangles between them");
 	for (size_t k = 0; k < nodes.size(); ++k)
 		for (int c = 0; c < 2; ++c)
 			if (!nscd::isNumber(nodes[k][c]))
-				refuse("nodes[" + std::to_string(k) + "][" + std::to_string(c)
-				       + "] = " + nscd::number(nodes[k][c]) + ": give a finite number");
+				refuseField(
+				        "nodes[" + std::to_string(k) + "][" + std::to_string(c)
+				        + "] = " + nscd::number(nodes[k][c]) + ": give a finite number");
 	nscd::requireNumbers("PorePressureField", "times", times);
 	nscd::requireNumbers("PorePressureField", "pressures", pressures);
 	nscd::requireRising("PorePressureField", times, true);
 	const size_t states = std::max<size_t>(1, times.size());
 	if (pressures.size() != states * nodes.size())
-		refuse("pressures has " + std::to_string(pressures.size()) + " entries: give one for each of the "
-		       + std::to_string(nodes.size()) + " nodes"
-		       + (states > 1 ? " at each of the " + std::to_string(states) + " times, "
-		                          + std::to_string(states * nodes.size())
-		                     : ""));
+		refuseField(
+		        "pressures has " + std::to_string(pressures.size()) + " entries: give one for each of the "
+		        + std::to_string(nodes.size()) + " nodes"
+		        + (states > 1 ? " at each of the " + std::to_string(states) + " times, "
+		                           + std::to_string(states * nodes.size())
+		                      : ""));
 }
 
 void PorePressureField::make()
@@ -45,7 +48,7 @@ void PorePressureField::make()
 	try {
 		triangulation = { std::move(points), std::move(between) };
 	} catch (const std::invalid_argument& error) {
-		refuse(string(error.what()) + ": give three nodes of the list for each, which span an area");
+		refuseField(string(error.what()) + ": give three nodes of the list for each, which span an area");
 	}
 	isMade = true;
 }

@@ -5,6 +5,7 @@
 #include "NscdInteractionLoop.hpp"
 #include "PlanarGridCollider.hpp"
 #include "Refusal.hpp"
+#include "UnguardedHeaders.hpp"
 #include "Segment.hpp"
 #include <cmath>
 #include <core/InteractionLoop.hpp>
@@ -13,7 +14,6 @@
 #include <pkg/common/Collider.hpp>
 #include <pkg/common/ForceResetter.hpp>
 #include <pkg/common/Sphere.hpp>
-#include <pkg/dem/DomainLimiter.hpp>
 #include <pkg/dem/Ig2_Sphere_Sphere_ScGeom.hpp>
 #include <pkg/dem/NewtonIntegrator.hpp>
 #include <pkg/dem/UniaxialStrainer.hpp>

@@ -10,15 +10,15 @@ namespace yade::nscd {
 namespace space = nonsmooth::contact::space;
 
 namespace {
-	constexpr Real apart = 1e-6; // of the shorter facet's size: how far from each other what meets may lie
+	constexpr Real apartOfFaces = 1e-6; // of the shorter facet's size: how far from each other what meets may lie
 
-	Real tolerance(Real size, const space::Vector& at)
+	Real meetingTolerance(Real size, const space::Vector& at)
 	{
 		const Real farthest = std::max({ std::abs(at.x), std::abs(at.y), std::abs(at.z) });
-		return apart * size + 16 * std::numeric_limits<Real>::epsilon() * farthest;
+		return apartOfFaces * size + 16 * std::numeric_limits<Real>::epsilon() * farthest;
 	}
 
-	Real distance(const space::Vector& a, const space::Vector& b) { return std::sqrt(dot(b - a, b - a)); }
+	Real distanceOf(const space::Vector& a, const space::Vector& b) { return std::sqrt(dot(b - a, b - a)); }
 }
 
 bool FaceJoints::Face::operator==(const Face& o) const
@@ -35,7 +35,7 @@ Real FaceJoints::Face::size() const
 {
 	Real longest = 0;
 	for (int k = 0; k < 3; ++k)
-		longest = std::max(longest, distance(corners.at(k), corners.at(k + 1)));
+		longest = std::max(longest, distanceOf(corners.at(k), corners.at(k + 1)));
 	return longest;
 }
 
@@ -73,11 +73,11 @@ bool FaceJoints::owns(const Scene& scene, Body::id_t facet, const space::Nearest
 	const Face& own = faces[place];
 	for (const int k : others[place]) {
 		const Face& other = faces[k];
-		const Real  near  = tolerance(std::min(own.size(), other.size()), at.point);
-		if (distance(space::nearest(other.corners, at.point).point, at.point) > near)
+		const Real  near  = meetingTolerance(std::min(own.size(), other.size()), at.point);
+		if (distanceOf(space::nearest(other.corners, at.point).point, at.point) > near)
 			continue; // q is not on it
 		const auto there = space::nearest(other.corners, centre);
-		if (there.feature == space::Nearest::Face || distance(there.point, at.point) > near) return false;
+		if (there.feature == space::Nearest::Face || distanceOf(there.point, at.point) > near) return false;
 		if (other.id < own.id) return false;
 	}
 	return true;
@@ -116,7 +116,7 @@ void FaceJoints::meet()
 	for (int k = 0; k < count; ++k) {
 		const Vector3r c[]  = { theirs(faces[k].corners.at(0)), theirs(faces[k].corners.at(1)),
 			                theirs(faces[k].corners.at(2)) };
-		const Real     near = apart * faces[k].size();
+		const Real     near = apartOfFaces * faces[k].size();
 		const Vector3r room = Vector3r(near, near, near);
 		extents[k] = { c[0].cwiseMin(c[1]).cwiseMin(c[2]) - room, c[0].cwiseMax(c[1]).cwiseMax(c[2]) + room };
 		widest     = std::max(widest, extents[k].most[0] - extents[k].least[0]);
@@ -130,8 +130,8 @@ void FaceJoints::meet()
 	const auto touches = [&](const Face& a, const Face& b) {
 		for (const auto& [one, other] : { std::pair(&a, &b), std::pair(&b, &a) })
 			for (const auto& corner : one->corners.vertices)
-				if (distance(space::nearest(other->corners, corner).point, corner)
-				    <= tolerance(std::min(a.size(), b.size()), corner))
+				if (distanceOf(space::nearest(other->corners, corner).point, corner)
+				    <= meetingTolerance(std::min(a.size(), b.size()), corner))
 					return true;
 		return false;
 	};

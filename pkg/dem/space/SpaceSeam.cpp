@@ -16,18 +16,18 @@ namespace yade::nscd {
 namespace space = nonsmooth::contact::space;
 
 namespace {
-	[[noreturn]] void refuse(const Body& body, const string& why, const string& remedy)
+	[[noreturn]] void refuseBody(const Body& body, const string& why, const string& remedy)
 	{
 		fail("body #" + std::to_string(body.getId()) + " " + why + ": " + remedy);
 	}
 
 	/// Inverse of a number that resists, 0 in a blocked direction.
-	Real inverse(unsigned blocked, unsigned axis, Real value) { return blocked & axis ? 0 : 1 / value; }
+	Real inverseIn(unsigned blocked, unsigned axis, Real value) { return blocked & axis ? 0 : 1 / value; }
 
 	/// What of an error of a bond's length, either way, goes beyond the slack.
-	Real beyond(Real error, Real slack) { return error - std::max(-slack, std::min(slack, error)); }
+	Real beyondSlack(Real error, Real slack) { return error - std::max(-slack, std::min(slack, error)); }
 
-	Real kinetic(Real mass, Real inertia, const space::Twist& t)
+	Real kineticOf(Real mass, Real inertia, const space::Twist& t)
 	{
 		return 0.5 * (mass * dot(t.v, t.v) + inertia * dot(t.w, t.w));
 	}
@@ -100,13 +100,13 @@ void SpaceSeam::gatherBodies(Scene& scene, const Vector3r& gravity)
 		own.before            = { ours(s.vel), ours(s.angVel) };
 		own.external          = { ours(scene.forces.getForce(id)), ours(scene.forces.getTorque(id)) };
 		const unsigned d      = s.blockedDOFs;
-		m                     = { inverse(d, State::DOF_X, s.mass),
-			                  inverse(d, State::DOF_Y, s.mass),
-			                  inverse(d, State::DOF_Z, s.mass),
+		m                     = { inverseIn(d, State::DOF_X, s.mass),
+			                  inverseIn(d, State::DOF_Y, s.mass),
+			                  inverseIn(d, State::DOF_Z, s.mass),
 			                  {} };
-		m.inertia.xx          = inverse(d, State::DOF_RX, s.inertia[0]);
-		m.inertia.yy          = inverse(d, State::DOF_RY, s.inertia[1]);
-		m.inertia.zz          = inverse(d, State::DOF_RZ, s.inertia[2]);
+		m.inertia.xx          = inverseIn(d, State::DOF_RX, s.inertia[0]);
+		m.inertia.yy          = inverseIn(d, State::DOF_RY, s.inertia[1]);
+		m.inertia.zz          = inverseIn(d, State::DOF_RZ, s.inertia[2]);
 		problem.positions[id] = ours(s.pos);
 		const auto pushed     = [&](Real speed, Real inverseMass, Real force, Real field) {
                         return inverseMass > 0 ? speed + h * (force * inverseMass + field) : speed;
@@ -129,22 +129,26 @@ void SpaceSeam::gatherBodies(Scene& scene, const Vector3r& gravity)
 	const Body&  body = *all[bad];
 	const State& s    = *body.state;
 	if (body.isClump() || body.isClumpMember())
-		refuse(body, "belongs to a clump",
-		       "clumps are not supported: use single spheres, which bonds can hold together (contactDynamics.bond())");
+		refuseBody(
+		        body, "belongs to a clump",
+		        "clumps are not supported: use single spheres, which bonds can hold together (contactDynamics.bond())");
 	if (const auto* ball = dynamic_cast<const Sphere*>(body.shape.get()); ball && !(ball->radius > 0))
-		refuse(body, "is a Sphere of radius " + number(ball->radius), "give it a positive radius [m]");
+		refuseBody(body, "is a Sphere of radius " + number(ball->radius), "give it a positive radius [m]");
 	if (!std::isfinite(s.pos.sum() + s.vel.sum() + s.angVel.sum()))
-		refuse(body, "has a position or velocity that is not finite",
-		       "check the forces and velocities that the script sets");
+		refuseBody(
+		        body, "has a position or velocity that is not finite",
+		        "check the forces and velocities that the script sets");
 	if (!std::isfinite(dot(bodies[bad].external.v, { 1, 1, 1 }) + dot(bodies[bad].external.w, { 1, 1, 1 })))
-		refuse(body, "has a force or torque that is not finite", "check the engines that add forces");
+		refuseBody(body, "has a force or torque that is not finite", "check the engines that add forces");
 	if (!(s.mass > 0) || !(s.inertia.minCoeff() > 0))
-		refuse(body,
-		       "can move but has mass = " + number(s.mass) + " kg and inertia = (" + number(s.inertia[0]) + ", "
-		               + number(s.inertia[1]) + ", " + number(s.inertia[2]) + ") kg m²",
-		       "set state.mass and state.inertia to positive values of the body's size, or block its DOFs");
-	refuse(body, "is free to turn and has three different moments of inertia",
-	       "only spheres turn: set state.blockedDOFs = 'XYZ' for a plate that moves without turning, or block all");
+		refuseBody(
+		        body,
+		        "can move but has mass = " + number(s.mass) + " kg and inertia = (" + number(s.inertia[0])
+		                + ", " + number(s.inertia[1]) + ", " + number(s.inertia[2]) + ") kg m²",
+		        "set state.mass and state.inertia to positive values of the body's size, or block its DOFs");
+	refuseBody(
+	        body, "is free to turn and has three different moments of inertia",
+	        "only spheres turn: set state.blockedDOFs = 'XYZ' for a plate that moves without turning, or block all");
 }
 
 /// All real interactions of rigid contacts, in the order of ids.
@@ -276,7 +280,7 @@ void SpaceSeam::correct(const space::SolverSettings& settings, space::Workspace&
 		}
 		const Real rest = links[k].phys->restGap;
 		if (!(c.play > 0)) {
-			e.error = beyond(end - rest, slack) - stays(beyond(gap - rest, slack));
+			e.error = beyondSlack(end - rest, slack) - stays(beyondSlack(gap - rest, slack));
 			e.error = std::max(-most, std::min(most, e.error));
 			any     = any || e.error != 0;
 			continue;
@@ -413,13 +417,13 @@ void SpaceSeam::sumBody(size_t id, const Vector3r& gravity, StepSums& sums) cons
 	           + free(m.inertia.xx, f.w.x, mean.w.x) + free(m.inertia.yy, f.w.y, mean.w.y)
 	           + free(m.inertia.zz, f.w.z, mean.w.z));
 	const Vector3r at        = theirs(problem.positions[id]);
-	const Real     potential = -b.mass * gravity.dot(at), moving = kinetic(b.mass, b.inertia, v0);
+	const Real     potential = -b.mass * gravity.dot(at), moving = kineticOf(b.mass, b.inertia, v0);
 	sums.kinetic += moving;
 	sums.potential += potential;
 	sums.size += moving + std::abs(potential);
 	const bool          moved = !correction.displacements.empty();
 	const space::Vector d     = moved ? correction.displacements[id].v : space::Vector {};
-	sums.kineticLeft += kinetic(b.mass, b.inertia, v1);
+	sums.kineticLeft += kineticOf(b.mass, b.inertia, v1);
 	sums.potentialLeft -= b.mass * gravity.dot(Vector3r(at + theirs(d) + h * theirs(v1.v)));
 	sums.correction -= b.mass * gravity.dot(theirs(d));
 	sums.mass += b.mass;
