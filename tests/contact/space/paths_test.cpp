@@ -79,9 +79,6 @@ TEST(SpacePaths, TheResidualReportedIsTheIndependentOne)
 			EXPECT_NEAR(found.largest / own.largest, 1, 1e-6) << name;
 			EXPECT_NEAR(found.scale / own.scale, 1, 1e-12) << name;
 			EXPECT_LE(largestDifference(velocitiesOf(p), p.velocities), 1e-12) << name;
-			if (!solved) return; // speeds are held against the last scale of what was solved
-			EXPECT_NEAR(found.speed / own.speed, 1, 1e-6) << name;
-			EXPECT_NEAR(found.largestSpeed / own.largestSpeed, 1, 1e-6) << name;
 		});
 	}
 }
