@@ -103,7 +103,7 @@ FLOOR = [(0, 0), (1, 0)]
 BREAKS = dict.fromkeys(("step", "time", "id1", "id2", "mode", "x", "y"), np.zeros(0))  # as tables.breaks has them
 ROWS = [{"values": {"seed": 1}, "numbers": {"front_m": {"values": [2.0], "mean": 2.0, "half_width": None}}}]
 CALLS = [
-    ("section", lambda v: section.load(v), (None, [1], -1, NAN, {}), "give the path of a YAML file, or one of: chair"),
+    ("section", lambda v: section.load(v), (None, [1], -1, NAN, {}), "give the path of a YAML file, or one of: acads_1a"),
     ("circle.yaml: disks|.*: disks", lambda v: CIRCLE.with_disks(v), (None, "600", [600], -1, NAN, INF, 600.5, True), "give a whole number from 1 to"),
     (".*: rock", lambda v: CIRCLE.with_rock(v), (None, "wwr", [1], -1), "give a Material, or the plain data"),
     (".*: a critical slip of", lambda v: CIRCLE.with_critical_slip(v), (None, "1", [1], -1, NAN, INF), "give a distance above 0"),

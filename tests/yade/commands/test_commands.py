@@ -335,6 +335,7 @@ def test_nothing_lists_files_but_asks_for_whole_ones():
         "machine.py",
         "scripts.py",  # the lessons that there are
         *["whole_files.py"] * 4,
+        "yade_examples.py",  # YADE's sources
     ]
 
 

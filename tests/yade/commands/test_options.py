@@ -535,6 +535,10 @@ RUN = {
         "--no-figures": "test_any_slope.py::test_a_mirrored_slope_has_the_mirrored_bits",
         "--list": "test_any_slope.py::test_shipped_sections_are_listed",
     },
+    "yade_examples.py": dict.fromkeys(
+        ("--kind", "--only", "--steps", "--soft", "--sources", "--out", "--threads"),
+        "test_yade_scripts.py::test_the_command_writes_what_became_of_the_scripts_asked_for",
+    ),
     "column.py": {"--profiles": "test_columns.py::test_profiles_are_those_of_the_columns_that_came_to_rest"},
     "film.py": {
         "--out": "test_moving.py::test_any_script_is_filmed_as_it_is",

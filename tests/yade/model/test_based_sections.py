@@ -58,7 +58,10 @@ def test_base_may_be_in_another_folder(tmp_path):
 @pytest.mark.parametrize(
     "content, words",
     [
-        ({"base": "nowhere"}, "line 1: base: 'nowhere' is no shipped section; give one of chair, circle"),
+        (
+            {"base": "nowhere"},
+            "line 1: base: 'nowhere' is no shipped section; give one of acads_1a, acads_1c, chair, circle",
+        ),
         ({"base": "section.schema"}, "base: there is no file section.schema"),
         ({"base": "other.yaml"}, "base: there is no file other.yaml"),
         ({"base": 3}, "base: 3 is no name"),

@@ -25,6 +25,7 @@ _REFUSALS = (
     "PlanarNewtonIntegrator:",
 )
 _RESULT = "NONSMOOTH_HARD_RESULT"
+_RUN_SCRIPT = Path(__file__).resolve().parents[2] / "world" / "hardening" / "_run_script.py"
 
 
 def run(script, sources, how="hard", steps=None, time=None, limit=120):
@@ -34,7 +35,6 @@ def run(script, sources, how="hard", steps=None, time=None, limit=120):
     far. ``how``: "hard" or "soft"; ``steps``: most steps, ``time``: most simulated time [s]; ``limit``: wall time [s].
     """
     home = Path(sources) / script
-    hard_script = _hard_script()
     with tempfile.TemporaryDirectory() as folder:
         place = Path(folder) / "scripts"
         shutil.copytree(home.parent, place)
@@ -44,7 +44,7 @@ def run(script, sources, how="hard", steps=None, time=None, limit=120):
         words += (
             ["--keep-step"] if "checks" in home.parts else []
         )  # they compare numbers at the times of their own steps
-        command = [*installation.command(1), str(hard_script), *words, "--", home.name]
+        command = [*installation.command(1), str(_RUN_SCRIPT), *words, "--", home.name]
         environment = {**os.environ, _RESULT: str(result), "MPLBACKEND": "Agg", "OMP_WAIT_POLICY": "passive"}
         try:
             done = subprocess.run(
@@ -72,13 +72,6 @@ def run(script, sources, how="hard", steps=None, time=None, limit=120):
         if how == "hard" and run(script, sources, "soft", steps=1, time=time, limit=limit)["message"] == message:
             outcome = "lacks"
     return {"script": script, "outcome": outcome, "message": message, "found": found}
-
-
-def _hard_script():
-    for above in Path(__file__).resolve().parents:
-        if (above / "scripts" / "hard_script.py").exists():
-            return above / "scripts" / "hard_script.py"
-    raise FileNotFoundError("scripts/hard_script.py stands in the checkout, which this package is not in")
 
 
 def _last_error(text):

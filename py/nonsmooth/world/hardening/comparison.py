@@ -54,7 +54,7 @@ def end(how, watch, O):
     """After the script: makes the steps that it has left to a window's button, where a time is asked for, and tells what
     all took."""
     if ((how.time is not None and O.time < how.time) or (how.steps is not None and not watch.steps)) and O.engines:
-        O.run(-1, True)
+        watch.run_on(O)
     if not watch.steps and how.how == "hard" and watch.hardened is None:
         raise HardenError("the script makes no steps: give --time, the simulated time [s] for which it is to run")
     found = {

@@ -120,6 +120,10 @@ class Watch:
         self.wall += time.perf_counter() - begin
         self.steps += omega.iter - first
 
+    def run_on(self, omega):
+        """Makes the steps that the script has left to a window's button, up to the bound."""
+        omega.run(-1, True)
+
     def take_new(self, omega):
         """Gives bodies that came since the last look rigid materials."""
         if self.hardened is not None and len(omega.bodies) != self._bodies:
