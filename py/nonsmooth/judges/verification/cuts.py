@@ -10,6 +10,7 @@ from matplotlib.figure import Figure
 
 from ...figures import style
 from ...measure.vertical_cut import vertical_cut
+from ...system import whole_files
 from .cases import folder_of, run_cases
 from .claims import Claims, Findings
 from .registry import check
@@ -148,7 +149,8 @@ def _failing(folder, axes, title):
     from ...studies.slope import results
 
     begin = records.read_snapshot(folder / results.BEGIN)
-    shots = sorted((p for p in (folder / "snapshots").glob("*.npz") if p.stem.isdecimal()), key=lambda p: int(p.stem))
+    kept = [p for p in whole_files.list_of(folder / "snapshots") if p.suffix == ".npz" and p.stem.isdecimal()]
+    shots = sorted(kept, key=lambda p: int(p.stem))
     for path in shots:
         s = records.read_snapshot(path)
         way = np.hypot(s.x - begin.x[s.number], s.y - begin.y[s.number])
