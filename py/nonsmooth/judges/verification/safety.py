@@ -100,8 +100,8 @@ PUBLISHED = (
     Published("griffiths_lane", 1.40, "Griffiths and Lane", 1.380, (-4.0, -1e-6), (-31.0, -18.0)),
     Published("acads_1c", 1.39, "ACADS, the referee", 1.406, (-3.0, 5.0), (-33.0, -18.0)),
 )
-COUNTS, SEEDS = (250, 500, 1000), (1, 2, 3)
-QUICK_COUNTS = (250,)
+COUNTS, SEEDS = (300, 500, 1000), (1, 2, 3)
+QUICK_COUNTS = (300,)
 NARROW = 0.04  # width of these brackets
 
 
