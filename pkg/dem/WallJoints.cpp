@@ -2,7 +2,6 @@
 #include "Arc.hpp"
 #include "Segment.hpp"
 #include <algorithm>
-#include <map>
 #include <numeric>
 
 namespace yade::nscd {
@@ -50,28 +49,6 @@ bool WallJoints::Wall::holds(const Vector3r& point, Real tolerance, Vector3r& up
 	up                  = -(point - position) / distance;
 	return std::abs(distance - size) <= tolerance && std::abs(std::atan2(here[1], here[0])) < opening;
 }
-
-WallJoints& WallJoints::of(Scene& scene)
-{
-	// asked for each wall that a functor looks at, by all threads
-	thread_local std::shared_ptr<WallJoints> last;
-	if (last && last->isOf(scene)) return *last;
-	static std::mutex                                          mutex;
-	static std::map<const Scene*, std::shared_ptr<WallJoints>> all;
-	const std::lock_guard<std::mutex>                          guard(mutex);
-	auto&                                                      found = all[&scene];
-	if (!found || !found->isOf(scene)) { // a new scene may lie where an old one was
-		found            = std::make_shared<WallJoints>();
-		found->container = scene.bodies;
-		found->bodies    = scene.bodies.get();
-		for (auto it = all.begin(); it != all.end();)
-			it = it->second->container.expired() ? all.erase(it) : std::next(it);
-	}
-	return *(last = found);
-}
-
-/// A number that is another one in the next step, also after O.resetTime().
-long WallJoints::stepOf(const Scene& scene) { return scene.iter + long(scene.forces.syncCount << 32); }
 
 const WallEnds& WallJoints::endsOf(const Scene& scene, Body::id_t id, bool anew)
 {

@@ -13,6 +13,7 @@
 // what no disk can touch (Body.bounded False).
 #pragma once
 
+#include "PerScene.hpp"
 #include <array>
 #include <atomic>
 #include <core/Scene.hpp>
@@ -53,11 +54,8 @@ struct WallEnd {
 /// The two ends of a wall, that at its beginning first.
 using WallEnds = std::array<WallEnd, 2>;
 
-class WallJoints {
+class WallJoints : public PerScene<WallJoints> {
 public:
-	/// Those of a scene; made where there are none.
-	static WallJoints& of(Scene& scene);
-
 	/// Looks up which ends meet, where walls are other ones than at the last look or have moved; `ids`: all bodies that may be walls. Not while others ask.
 	void find(const Scene& scene, const std::vector<int>& ids);
 	/// What meets the ends of a wall in this step; `anew`: whatever was looked up before. For functors in YADE's loop, which nobody calls find() for.
@@ -85,14 +83,10 @@ private:
 	struct Meeting {
 		int wall, end;
 	};
-	static long stepOf(const Scene& scene);
-	bool        isOf(const Scene& scene) const { return !container.expired() && bodies == scene.bodies.get(); }
-	void        note(const Body* body);
-	void        meet();
-	bool        isBefore(int wall, int end, const Meeting& other, bool alone) const;
+	void note(const Body* body);
+	void meet();
+	bool isBefore(int wall, int end, const Meeting& other, bool alone) const;
 
-	boost::weak_ptr<BodyContainer>      container;
-	const BodyContainer*                bodies = nullptr;
 	std::mutex                          mutex;
 	std::atomic<long>                   looked { std::numeric_limits<long>::min() }; // step, see stepOf
 	std::vector<Wall>                   walls, now; // of the last look, and of this one

@@ -1,7 +1,6 @@
 #include "FaceJoints.hpp"
 #include "Vectors.hpp"
 #include <algorithm>
-#include <map>
 #include <numeric>
 #include <pkg/common/Facet.hpp>
 
@@ -38,28 +37,6 @@ Real FaceJoints::Face::size() const
 		longest = std::max(longest, distanceOf(corners.at(k), corners.at(k + 1)));
 	return longest;
 }
-
-FaceJoints& FaceJoints::of(Scene& scene)
-{
-	// asked for each facet that a functor looks at, by all threads
-	thread_local std::shared_ptr<FaceJoints> last;
-	if (last && last->isOf(scene)) return *last;
-	static std::mutex                                          mutex;
-	static std::map<const Scene*, std::shared_ptr<FaceJoints>> all;
-	const std::lock_guard<std::mutex>                          guard(mutex);
-	auto&                                                      found = all[&scene];
-	if (!found || !found->isOf(scene)) { // a new scene may lie where an old one was
-		found            = std::make_shared<FaceJoints>();
-		found->container = scene.bodies;
-		found->bodies    = scene.bodies.get();
-		for (auto it = all.begin(); it != all.end();)
-			it = it->second->container.expired() ? all.erase(it) : std::next(it);
-	}
-	return *(last = found);
-}
-
-/// A number that is another one in the next step, also after O.resetTime().
-long FaceJoints::stepOf(const Scene& scene) { return scene.iter + long(scene.forces.syncCount << 32); }
 
 bool FaceJoints::owns(const Scene& scene, Body::id_t facet, const space::Nearest& at, const space::Vector& centre)
 {
@@ -112,14 +89,12 @@ void FaceJoints::meet()
 	};
 	const int           count = int(faces.size());
 	std::vector<Extent> extents(count);
-	Real                widest = 0;
 	for (int k = 0; k < count; ++k) {
 		const Vector3r c[]  = { theirs(faces[k].corners.at(0)), theirs(faces[k].corners.at(1)),
 			                theirs(faces[k].corners.at(2)) };
 		const Real     near = apartOfFaces * faces[k].size();
 		const Vector3r room = Vector3r(near, near, near);
 		extents[k] = { c[0].cwiseMin(c[1]).cwiseMin(c[2]) - room, c[0].cwiseMax(c[1]).cwiseMax(c[2]) + room };
-		widest     = std::max(widest, extents[k].most[0] - extents[k].least[0]);
 	}
 	std::vector<int> order(count);
 	std::iota(order.begin(), order.end(), 0);

@@ -10,6 +10,7 @@
 // facets have come, gone, moved or been changed. Those of different groupMask are not joined, nor what no sphere can touch (Body.bounded False).
 #pragma once
 
+#include "../PerScene.hpp"
 #include <atomic>
 #include <contact/space/nearest.hpp>
 #include <core/Scene.hpp>
@@ -17,11 +18,8 @@
 
 namespace yade::nscd {
 
-class FaceJoints {
+class FaceJoints : public PerScene<FaceJoints> {
 public:
-	/// Those of a scene; made where there are none.
-	static FaceJoints& of(Scene& scene);
-
 	/// Whether a contact at the nearest point of that facet is its own, for a sphere's centre there.
 	bool
 	owns(const Scene& scene, Body::id_t facet, const nonsmooth::contact::space::Nearest& at,
@@ -37,18 +35,14 @@ private:
 		bool operator==(const Face& other) const;
 		Real size() const;
 	};
-	static long stepOf(const Scene& scene);
-	bool        isOf(const Scene& scene) const { return !container.expired() && bodies == scene.bodies.get(); }
-	void        look(const Scene& scene);
-	void        meet();
+	void look(const Scene& scene);
+	void meet();
 
-	boost::weak_ptr<BodyContainer> container;
-	const BodyContainer*           bodies = nullptr;
-	std::mutex                     mutex;
-	std::atomic<long>              looked { std::numeric_limits<long>::min() }; // step, see stepOf
-	std::vector<Face>              faces, now; // of the last look, and of this one
-	std::vector<std::vector<int>>  others; // by place in faces: places of those that it meets
-	std::vector<int>               placeOf; // by id; −1 where there is no facet
+	std::mutex                    mutex;
+	std::atomic<long>             looked { std::numeric_limits<long>::min() }; // step, see stepOf
+	std::vector<Face>             faces, now; // of the last look, and of this one
+	std::vector<std::vector<int>> others; // by place in faces: places of those that it meets
+	std::vector<int>              placeOf; // by id; −1 where there is no facet
 };
 
 } // namespace yade::nscd

@@ -43,7 +43,7 @@ MUTANTS = (
            OUTLIVED + "::test_a_wall_that_is_moved_by_its_place_does_not_count_a_refused_step"),
     mutant("interface-number", "pkg/dem/seam/ContactSeamScatter.cpp", "++allSteps", "scene.iter",
            "slip along an interface is lost where time is reset", OUTLIVED + "::test_slip_along_an_interface_counts_though_steps_have_the_same_number"),
-    mutant("joints-number", "pkg/dem/WallJoints.cpp", "scene.iter + long(scene.forces.syncCount << 32)", "scene.iter", "joints are those of an earlier step with that number",
+    mutant("joints-number", "pkg/dem/PerScene.hpp", "scene.iter + long(scene.forces.syncCount << 32)", "scene.iter", "joints are those of an earlier step with that number",
            OUTLIVED + "::test_joints_of_walls_are_looked_up_in_each_step_though_it_has_the_same_number"),
     mutant("dump-whole", ENGINE, "problemIsWhole = false;", "problemIsWhole = true;", "half of a refused step's problem is written", OUTLIVED + "::test_a_problem_is_not_half_of_a_step_that_was_refused"),
     mutant("advance-within", "pkg/dem/Advance.cpp", "begun == &scene", "false", "advance() makes steps within a step", OUTLIVED + "::test_an_advance_within_a_step_is_refused"),
