@@ -63,7 +63,7 @@ void ContactDynamicsEngine::action()
 	candidates        = (int)seam.links.size();
 	wayWorst          = seam.longest.radii;
 	account(sums);
-	reportOverlap(seam.overlapsOf(deepOverlap));
+	reportOverlap([this](Real depth) { return seam.overlapsOf(depth); });
 	reportWay();
 	reportDriven();
 	recordBreaks(resident);

@@ -19,6 +19,7 @@
 #include <contact/solver.hpp>
 #include <core/GlobalEngine.hpp>
 #include <core/Omega.hpp>
+#include <functional>
 #include <pkg/dem/NewtonIntegrator.hpp>
 
 namespace yade {
@@ -174,7 +175,7 @@ private:
 	string tellMissed(const nonsmooth::contact::SolverStatistics& statistics) const;
 	string tellWorstPair();
 	string tellWorstPairInSpace();
-	void   reportOverlap(int deepPairs);
+	void   reportOverlap(const std::function<int(Real)>& pairsDeeperThan);
 	void   reportWay();
 	void   reportDriven();
 	void   reportRestitution(Real settling);

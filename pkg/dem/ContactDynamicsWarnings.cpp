@@ -50,14 +50,14 @@ namespace {
 	}
 }
 
-void ContactDynamicsEngine::reportOverlap(int deepPairs)
+void ContactDynamicsEngine::reportOverlap(const std::function<int(Real)>& pairsDeeperThan)
 {
 	if (overlapWorst < deepOverlap || !nscd::seldom(++overlappedSteps)) return;
 	LOG_WARN(
 	        "step "
-	        << scene->iter << " began with " << pairsOf(deepPairs) << " deep in each other, the worst bodies #"
-	        << overlapWorstPair[0] << " and #" << overlapWorstPair[1] << ", by " << 100 * overlapWorst
-	        << " % of their mean diameter (" << overlappedSteps
+	        << scene->iter << " began with " << pairsOf(pairsDeeperThan(deepOverlap))
+	        << " deep in each other, the worst bodies #" << overlapWorstPair[0] << " and #" << overlapWorstPair[1]
+	        << ", by " << 100 * overlapWorst << " % of their mean diameter (" << overlappedSteps
 	        << " such steps so far). They were placed so, pressed by a wall that moves regardless of"
 	           " what it meets, or met faster than the collider knew of: look at how they were placed, lower O.dt or the wall's speed, or raise Law2's reach and the functors' factors."
 	           " Where none of that is so, the solve leaves overlaps: lower tolerance (it is "

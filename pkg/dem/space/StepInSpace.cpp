@@ -35,7 +35,7 @@ void ContactDynamicsEngine::stepInSpace(nscd::StageTimer& timer, const Vector3r&
 		        { Real(scene->iter), scene->time, Real(std::min(ids.getId1(), ids.getId2())),
 		          Real(std::max(ids.getId1(), ids.getId2())), Real(mode), at[0], at[1] });
 	}
-	reportOverlap(inSpace.overlapsOf(deepOverlap));
+	reportOverlap([this](Real depth) { return inSpace.overlapsOf(depth); });
 	reportRestitution(sums.mass * (scene->dt * scene->dt) * gravity.squaredNorm());
 	report(statistics, sums.bodies > 0 ? sums.mass / sums.bodies * gravity.norm() : 0);
 }
