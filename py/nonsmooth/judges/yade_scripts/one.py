@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import json
 import os
 import re
 import shutil
@@ -10,7 +9,7 @@ import subprocess
 import tempfile
 from pathlib import Path
 
-from ...system import installation
+from ...system import script_process
 
 __all__ = ["OUTCOMES", "run"]
 
@@ -24,8 +23,6 @@ _REFUSALS = (
     "PlanarGridCollider:",
     "PlanarNewtonIntegrator:",
 )
-_RESULT = "NONSMOOTH_HARD_RESULT"
-_RUN_SCRIPT = Path(__file__).resolve().parents[2] / "world" / "hardening" / "_run_script.py"
 
 
 def run(script, sources, how="hard", steps=None, time=None, limit=120):
@@ -38,29 +35,24 @@ def run(script, sources, how="hard", steps=None, time=None, limit=120):
     with tempfile.TemporaryDirectory() as folder:
         place = Path(folder) / "scripts"
         shutil.copytree(home.parent, place)
-        result = Path(folder) / "result.json"
-        words = ["--how", how, "--time", "" if time is None else repr(time)]
-        words += [] if steps is None else ["--steps", str(steps)]
-        words += (
-            ["--keep-step"] if "checks" in home.parts else []
-        )  # they compare numbers at the times of their own steps
-        command = [*installation.command(1), str(_RUN_SCRIPT), *words, "--", home.name]
-        environment = {**os.environ, _RESULT: str(result), "MPLBACKEND": "Agg", "OMP_WAIT_POLICY": "passive"}
         try:
-            done = subprocess.run(
-                command,
+            done, found = script_process.run(
+                home.name,
+                how,
+                time=time,
+                steps=steps,
+                keep_step="checks" in home.parts,  # they compare numbers at the times of their own steps
+                environment={**os.environ, "MPLBACKEND": "Agg", "OMP_WAIT_POLICY": "passive"},
                 cwd=place,
-                env=environment,
                 stdin=subprocess.DEVNULL,
                 timeout=limit,
                 capture_output=True,
                 text=True,
                 errors="replace",
             )
-            said, status = f"{done.stdout}\n{done.stderr}", done.returncode
         except subprocess.TimeoutExpired:
             return {"script": script, "outcome": "stopped", "message": f"after {limit} s of wall time", "found": None}
-        found = json.loads(result.read_text()) if result.exists() else None
+    said, status = f"{done.stdout}\n{done.stderr}", done.returncode
     message = _last_error(said)
     if status == 0 and found:
         outcome, message = "runs" if found["largest overlap [radii]"] < MOST_OVERLAP else "overlaps", ""

@@ -3,22 +3,17 @@
 from __future__ import annotations
 
 import argparse
-import json
 import os
-import subprocess
-import sys
-import tempfile
 
 from tabulate import tabulate
 
 from yade.wrapper import NewtonIntegrator, Sphere
 
+from ...system import script_process
 from .error import HardenError
 from .script import Watch, stand_ins
 
 __all__ = ["asked", "begin", "both", "end", "stand_ins"]
-
-_RESULT = "NONSMOOTH_HARD_RESULT"  # the file to which a run of two writes what it took
 
 
 def asked(argv):
@@ -69,11 +64,7 @@ def end(how, watch, O):
         "contacts": O.interactions.countReal(),
         **_heights(O),
     }
-    path = os.environ.get(_RESULT)
-    if path:
-        with open(path, "w") as result:
-            json.dump(found, result)
-    else:
+    if not script_process.tell(found):
         print(tabulate(found.items(), floatfmt=".4g"))
 
 
@@ -106,21 +97,15 @@ def _largest_overlap(O):
 
 def both(how, path, argv):
     """Runs the script soft, then hard, and prints both; returns the exit status."""
-    launcher = os.path.join(os.environ["YADE_PREFIX"], "bin", "yade")
-    here = os.path.abspath(sys.modules["__main__"].__dict__.get("__file__", ""))
+    threads = os.environ.get("OMP_NUM_THREADS", "1")
     rows, status = {}, 0
     for kind in ("soft", "hard"):
-        with tempfile.TemporaryDirectory() as folder:
-            result = os.path.join(folder, "result.json")
-            words = ["--how", kind, "--time", "" if how.time is None else repr(how.time), "--", path, *argv[1:]]
-            threads = os.environ.get("OMP_NUM_THREADS", "1")
-            done = subprocess.run(
-                [launcher, "-n", "-x", f"-j{threads}", "--", here, *words], env={**os.environ, _RESULT: result}
-            )
-            status = status or done.returncode
-            if os.path.exists(result):
-                with open(result) as file:
-                    rows[kind] = json.load(file)
+        done, found = script_process.run(
+            path, kind, threads, arguments=argv[1:], time=how.time, steps=how.steps, keep_step=how.keep_step
+        )
+        status = status or done.returncode
+        if found is not None:
+            rows[kind] = found
     names = list(dict.fromkeys(name for row in rows.values() for name in row))
     table = [[name, *(rows.get(kind, {}).get(name, "") for kind in ("soft", "hard"))] for name in names]
     print(tabulate(table, headers=["", "soft", "hard"], floatfmt=".4g"))
