@@ -38,16 +38,17 @@ SHAPES = {
 }
 
 
-def bounds(reach):
+def bounds(reach, shapes=SHAPES):
     """Functors of boxes for a collider, so that gaps up to ``reach`` [ℓ] are seen; for a wall ℓ is the sphere's
-    diameter."""
-    return [Bo1_Sphere_Aabb(aabbEnlargeFactor=1 + 2 * reach)] + [bound() for bound, _ in SHAPES.values()][1:]
+    diameter. ``shapes``: as SHAPES, Sphere first."""
+    # a wall knows a sphere up to 2 reach of its radii, see Ig2_Facet_Sphere_FaceGeom.interactionDetectionFactor
+    return [Bo1_Sphere_Aabb(aabbEnlargeFactor=1 + 2 * reach)] + [bound() for bound, _ in shapes.values()][1:]
 
 
-def loop(reach, adhesion_range=1e-3, **options):
-    """The NscdInteractionLoop of rigid contacts in space; ``options``: its attributes."""
+def loop(reach, adhesion_range=1e-3, shapes=SHAPES, **options):
+    """The NscdInteractionLoop of rigid contacts in space; ``shapes``: as SHAPES; ``options``: its attributes."""
     return NscdInteractionLoop(
-        [contact(interactionDetectionFactor=1 + reach) for _, contact in SHAPES.values()],
+        [contact(interactionDetectionFactor=1 + reach) for _, contact in shapes.values()],
         [Ip2_NscdMat_NscdMat_NscdPhys()],
         [Law2_ScGeom_NscdPhys_SignoriniCoulomb(reach=reach, adhesionRange=adhesion_range)],
         **options,

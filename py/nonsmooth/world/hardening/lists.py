@@ -6,7 +6,6 @@ from yade.wrapper import (
     Arc,
     Bo1_Arc_Aabb,
     Bo1_Segment_Aabb,
-    Bo1_Sphere_Aabb,
     Collider,
     ContactDynamicsEngine,
     DomainLimiter,
@@ -15,10 +14,7 @@ from yade.wrapper import (
     Ig2_Segment_Sphere_ScGeom,
     InsertionSortCollider,
     InteractionLoop,
-    Ip2_NscdMat_NscdMat_NscdPhys,
-    Law2_ScGeom_NscdPhys_SignoriniCoulomb,
     NewtonIntegrator,
-    NscdInteractionLoop,
     PlanarGridCollider,
     PlanarNewtonIntegrator,
     PyRunner,
@@ -93,7 +89,7 @@ def hard_engines(engines, shapes, in_plane, options):
         raise HardenError(
             f"bodies have the shapes {', '.join(unknown)}, which rigid spheres cannot touch yet: harden() takes {', '.join(kind.__name__ for kind in _SHAPES)}; set bounded = False for what nothing is to touch"
         )
-    kinds = [kind for kind in _SHAPES if kind in shapes or kind is Sphere]
+    touched = {kind: functors for kind, functors in _SHAPES.items() if kind in shapes or kind is Sphere}
     newton = newton_of(engines)
     made, rows = [], []
     if not any(isinstance(e, ForceResetter) for e in engines):
@@ -103,10 +99,10 @@ def hard_engines(engines, shapes, in_plane, options):
         if isinstance(engine, TimeStepper):
             rows.append((name, "dropped: the step of rigid contacts does not depend on stiffness"))
         elif isinstance(engine, Collider):
-            made.append(_collider(engine, kinds, in_plane))
+            made.append(_collider(engine, touched, in_plane))
             rows.append((name, f"{type(made[-1]).__name__}, which sees open gaps of {_REACH:g} ℓ"))
         elif isinstance(engine, InteractionLoop):
-            made.append(_loop(engine, kinds))
+            made.append(space.loop(_REACH, shapes=touched, label=engine.label))
             laws = ", ".join(type(law).__name__ for law in engine.lawDispatcher.functors)
             rows.append((f"{name} ({laws})", "NscdInteractionLoop (Law2_ScGeom_NscdPhys_SignoriniCoulomb)"))
         elif isinstance(engine, DomainLimiter):
@@ -114,12 +110,7 @@ def hard_engines(engines, shapes, in_plane, options):
             rows.append((name, "PyRunner, which erases the same bodies"))
         elif engine is newton:
             damping = engine.damping
-            made += [
-                ContactDynamicsEngine(
-                    label=options.get("label", "contactDynamics"), **{k: v for k, v in options.items() if k != "label"}
-                ),
-                _integrator(engine, in_plane),
-            ]
+            made += [ContactDynamicsEngine(**{"label": "contactDynamics", **options}), _integrator(engine, in_plane)]
             rows.append(
                 (
                     f"{name} (damping = {damping:g})",
@@ -131,22 +122,11 @@ def hard_engines(engines, shapes, in_plane, options):
     return made, rows
 
 
-def _collider(old, kinds, in_plane):
-    # a wall knows a sphere up to 2 reach of its radii, see Ig2_Facet_Sphere_FaceGeom.interactionDetectionFactor
-    bounds = [Bo1_Sphere_Aabb(aabbEnlargeFactor=1 + (1 if in_plane else 2) * _REACH)] + [
-        _SHAPES[k][0]() for k in kinds[1:]
-    ]
-    if in_plane:
-        return PlanarGridCollider(bounds, verletDist=-0.2, label=old.label)
-    return InsertionSortCollider(bounds, label=old.label, avoidSelfInteractionMask=old.avoidSelfInteractionMask)
-
-
-def _loop(old, kinds):
-    return NscdInteractionLoop(
-        [_SHAPES[kind][1](interactionDetectionFactor=1 + _REACH) for kind in kinds],
-        [Ip2_NscdMat_NscdMat_NscdPhys()],
-        [Law2_ScGeom_NscdPhys_SignoriniCoulomb(reach=_REACH)],
-        label=old.label,
+def _collider(old, shapes, in_plane):
+    if in_plane:  # where no wall asks for twice the reach
+        return PlanarGridCollider(space.bounds(0.5 * _REACH, shapes), verletDist=-0.2, label=old.label)
+    return InsertionSortCollider(
+        space.bounds(_REACH, shapes), label=old.label, avoidSelfInteractionMask=old.avoidSelfInteractionMask
     )
 
 
