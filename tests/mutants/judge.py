@@ -42,11 +42,11 @@ def _folders():
 
 
 def split(tests):
-    """Tests by kind, a dictionary: "gtest", "plain" (pytest without YADE), "yade", "check"."""
-    kinds = {"gtest": [], "plain": [], "yade": [], "check": []}
+    """Tests by kind, a dictionary: "gtest", "plain" (pytest without YADE), "yade", "check", "verify"."""
+    kinds = {"gtest": [], "plain": [], "yade": [], "check": [], "verify": []}
     for test in tests:
         begin, _, rest = test.partition(":")
-        if begin in ("gtest", "check"):
+        if begin in ("gtest", "check", "verify"):
             kinds[begin].append(rest)
         elif begin == "plain":
             kinds["plain"].append(placed(rest))
@@ -58,8 +58,8 @@ def split(tests):
 
 
 def run(place, kinds, number, limit, *options):
-    """Runs the tests of GoogleTest and of pytest, the quick kinds first: yields (kind, status, output); ``options``: of
-    pytest.
+    """Runs the tests of GoogleTest and of pytest and checks that stand alone, the quick kinds first: yields (kind,
+    status, output); ``options``: of pytest.
     """
     if kinds["gtest"]:
         # ccache may have made the path of a test's source, by which it finds its data, one from the build folder on
@@ -73,6 +73,10 @@ def run(place, kinds, number, limit, *options):
         yield "plain", *place.pytest(["--noconftest", *options, *kinds["plain"]], False, number, limit)
     if kinds["yade"]:
         yield "yade", *place.pytest(["--rootdir=tests/yade", *options, *kinds["yade"]], True, number, limit)
+    if kinds["verify"]:
+        holds, said = verify(place, kinds["verify"], number)
+        missed = [f"FAILED {name}" for name in kinds["verify"] if not holds.get(name, False)]
+        yield "verify", int(bool(missed)), "\n".join([said, *missed])
 
 
 def verify(place, names, number=0):

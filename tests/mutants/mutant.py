@@ -30,7 +30,8 @@ class Mutant:
         test_records.py::test_x     pytest in YADE, in a folder of tests/yade
         plain:test_figures.py, fuzz/test_x.py, bindings/…  pytest without YADE, which is quicker; "plain:" stands for such a folder
         gtest:Law.*                 GoogleTest, a filter
-        check:landing               scripts/verify.py; all that are named must see it
+        verify:melt-layer           a check of scripts/verify.py, in its quick form
+        check:landing               one of the table of the law (judge.LAW); all that are named must see it
 
     ``slow``: a run of half a minute or more, which only --all makes.
     """
@@ -40,6 +41,10 @@ class Mutant:
     edits: tuple
     tests: tuple
     slow: bool = False
+
+    def __post_init__(self):
+        if not self.tests:
+            raise TableError(f"mutant {self.name}: has no tests that should see it; is there a comma before the first?")
 
     @property
     def number(self):
