@@ -2,7 +2,7 @@
 #include "PythonBytes.hpp"
 #include "Refusal.hpp"
 #include "SameBody.hpp"
-#include <contact/slip_weakening.hpp>
+#include <contact/slip/laws.hpp>
 #include <core/Omega.hpp>
 #include <core/Scene.hpp>
 #include <lib/high-precision/Constants.hpp>
@@ -58,6 +58,10 @@ void NscdMat::validate() const
 			throw std::invalid_argument(
 			        getClassName() + " '" + label
 			        + "': interfaceLaws has what is no NscdMat: give NscdMats");
+		if (material->isForWallsAlone())
+			throw std::invalid_argument(
+			        getClassName() + " '" + label + "': interfaceLaws has a " + material->getClassName()
+			        + ", whose cells lie along walls: give an NscdMat or a SlipWeakeningMat");
 		if (material->interfaceLaws.empty()) material->validate(); // an interface has none of its own
 	}
 }
@@ -97,18 +101,24 @@ void SlipWeakeningMat::checkWeakening() const
 	require(weakenedTensileStrength >= 0 && nscd::isNumber(weakenedTensileStrength), "weakenedTensileStrength",
 	        weakenedTensileStrength, "0 or more, and finite [Pa]");
 	try {
-		nonsmooth::contact::slipWeakening(
-		        weakening, 0, criticalSlip); // throws for a name or a slip that it does not know
+		nonsmooth::contact::slip::makeBySlip(weakening, criticalSlip);
 	} catch (const std::invalid_argument& error) {
 		throw std::invalid_argument(getClassName() + " '" + label + "': " + error.what());
 	}
 }
 
+void SlipWeakeningMat::takeLaw()
+{
+	using namespace nonsmooth::contact::slip;
+	law.reset();
+	if (knowsBySlip(weakening) && criticalSlip > 0) law = makeBySlip(weakening, criticalSlip);
+	checkWeakening();
+}
+
 Real SlipWeakeningMat::remaining(Body::id_t id) const
 {
 	// called by InteractionLoop's threads, which no exception may leave; refused where it was set, and by ContactDynamicsEngine
-	if (!nonsmooth::contact::knowsSlipWeakening(weakening) || !(criticalSlip > 0)) return 1;
-	return nonsmooth::contact::slipWeakening(weakening, slipOf(id), criticalSlip);
+	return law ? law->left(slipOf(id)) : 1;
 }
 
 void SlipWeakeningMat::weaken(Real& adhesion, Real& friction, Real length, Real left) const

@@ -3,7 +3,12 @@
 
 #include <core/Body.hpp>
 #include <core/BodyContainer.hpp>
+#include <memory>
 #include <pkg/common/ElastMat.hpp>
+
+namespace nonsmooth::contact::slip {
+class BySlip;
+}
 
 namespace yade {
 
@@ -14,6 +19,8 @@ public:
 	virtual void validate() const;
 	/// A script has set a number: refused at once, since in scenes with soft contacts no exception may leave the threads of YADE's loop.
 	void postLoad(NscdMat&) { checkNumbers(); }
+	/// Whether it can rule a contact only where it is a wall's own.
+	virtual bool isForWallsAlone() const { return false; }
 	/// Whether the peak's friction angle has changed since it was last asked, and the residual one, which is a value of its own, has not.
 	bool changesPeakAlone();
 	/// The law of contacts with a body of another material, where one of the two says so for the other's layer; null where none does.
@@ -85,7 +92,7 @@ public:
 	int                   slippedCount();
 	void                  forgetSlip();
 	boost::python::object slipTable();
-	void                  postLoad(SlipWeakeningMat&) { checkWeakening(); }
+	void                  postLoad(SlipWeakeningMat&) { takeLaw(); }
 	void                  preSave(SlipWeakeningMat&) { forgetOthers(); }
 	// clang-format off
 	YADE_CLASS_BASE_DOC_ATTRS_CTOR_PY(SlipWeakeningMat,NscdMat,
@@ -99,7 +106,7 @@ leaves it. Slip belongs to a body and not to its id: one that takes the id of an
 		((Real,weakenedTensileStrength,0,Attr::triggerPostLoad,"Tensile strength [Pa] that is left in the end."))
 		((vector<Real>,slip,,(Attr::readonly|Attr::hidden),"Slip of each body along this wall [m], by body id."))
 		,
-		createIndex(); wall=true;
+		createIndex(); wall=true; takeLaw();
 		,
 		.def("slipOf",&SlipWeakeningMat::slipNow,(boost::python::arg("id")),"Distance [m] that the body has slipped along this wall.")
 		.def("slipTable",&SlipWeakeningMat::slipTable,"The same of all bodies up to the last that has slipped, by id, eight bytes each; see nonsmooth.tables.slip.")
@@ -113,6 +120,7 @@ leaves it. Slip belongs to a body and not to its id: one that takes the id of an
 
 private:
 	void checkWeakening() const;
+	void takeLaw();
 	void forgetOthers();
 	void noteOwner(Body::id_t id, const shared_ptr<Body>& body);
 
@@ -120,6 +128,8 @@ private:
 	        ofStep; // by body: the last step in which it slipped along an interface, and how far
 	std::vector<boost::weak_ptr<Body>> owners; // by id: whose slip it is; none after loading
 	boost::weak_ptr<BodyContainer>     home; // whose bodies these are
+	// of `weakening` and `criticalSlip`, chosen where they are set; none where they do not make sense
+	std::shared_ptr<const nonsmooth::contact::slip::BySlip> law;
 };
 REGISTER_SERIALIZABLE(SlipWeakeningMat);
 

@@ -1,4 +1,5 @@
 #include "NscdPhys.hpp"
+#include "SlipSurfacePhys.hpp"
 #include "Refusal.hpp"
 #include "SceneCheck.hpp"
 #include "space/NscdSpacePhys.hpp"
@@ -94,14 +95,14 @@ void SlipWeakeningPhys::updateThresholds(Real gap, Real adhesionRange)
 	tangensOfFrictionAngle = currentFriction;
 }
 
-void SlipWeakeningPhys::addSlip(Real distance, long step)
+void SlipWeakeningPhys::noteSliding(const nscd::Sliding& sliding)
 {
-	if (!wallMaterial) return; // made by a script
+	if (!wallMaterial || !sliding.bears) return; // the former: made by a script
 	wallMaterial->claim(Body::byId(body));
-	if (other < 0) return wallMaterial->addSlip(body, distance);
+	if (other < 0) return wallMaterial->addSlip(body, sliding.way);
 	wallMaterial->claim(Body::byId(other));
-	wallMaterial->addSlip(body, distance, step);
-	wallMaterial->addSlip(other, distance, step);
+	wallMaterial->addSlip(body, sliding.way, sliding.number);
+	wallMaterial->addSlip(other, sliding.way, sliding.number);
 }
 
 namespace nscd {
@@ -166,6 +167,13 @@ shared_ptr<NscdPhys> Ip2_NscdMat_NscdMat_NscdPhys::make(
 	const auto* law  = static_cast<const NscdMat&>(*m1).interfaceWith(static_cast<const NscdMat&>(*m2));
 	const auto* weak = dynamic_cast<const SlipWeakeningMat*>(law);
 	const auto  id1 = interaction.getId1(), id2 = interaction.getId2();
+	for (const auto& [material, id] : { std::pair(&m1, id1), std::pair(&m2, id2) })
+		if (const auto surface = boost::dynamic_pointer_cast<SlipSurfaceMat>(*material)) {
+			const auto phys    = boost::make_shared<SlipSurfacePhys>();
+			phys->wallMaterial = surface;
+			phys->wall         = id;
+			return phys;
+		}
 	if (!weak && (law || (!weak1 && !weak2))) {
 		const bool inSpace = nscd::isFreeInSpace(*Body::byId(id1)) || nscd::isFreeInSpace(*Body::byId(id2));
 		return inSpace ? boost::make_shared<NscdSpacePhys>() : boost::make_shared<NscdPhys>();
@@ -185,16 +193,29 @@ shared_ptr<NscdPhys> Ip2_NscdMat_NscdMat_NscdPhys::make(
 	return phys;
 }
 
+namespace {
+	/// Whether two physics of a contact keep their slip at one place.
+	bool isSameKind(const NscdPhys& old, const NscdPhys& made)
+	{
+		const auto *was        = dynamic_cast<const SlipWeakeningPhys*>(&old),
+		           *is         = dynamic_cast<const SlipWeakeningPhys*>(&made);
+		const auto *wasSurface = dynamic_cast<const SlipSurfacePhys*>(&old),
+		           *isSurface  = dynamic_cast<const SlipSurfacePhys*>(&made);
+		if (!was != !is || !wasSurface != !isSurface) return false;
+		if (was)
+			return was->wallMaterial == is->wallMaterial && was->body == is->body
+			        && was->other == is->other;
+		return !wasSurface
+		        || (wasSurface->wallMaterial == isSurface->wallMaterial && wasSurface->wall == isSurface->wall);
+	}
+}
+
 void Ip2_NscdMat_NscdMat_NscdPhys::renew(Interaction& interaction, const Body& b1, const Body& b2)
 {
 	auto&      old  = static_cast<NscdPhys&>(*interaction.phys);
 	const auto made = make(b1.material, b2.material, interaction);
 	setStrengths(old, b1, b2);
-	const auto *was = dynamic_cast<const SlipWeakeningPhys*>(&old),
-	           *is  = dynamic_cast<const SlipWeakeningPhys*>(made.get());
-	if (!was && !is) return;
-	if (was && is && was->wallMaterial == is->wallMaterial && was->body == is->body && was->other == is->other)
-		return;
+	if (isSameKind(old, *made)) return;
 	static_cast<NscdPhys&>(*made) = old;
 	interaction.phys              = made;
 }

@@ -12,6 +12,19 @@
 
 namespace yade {
 
+namespace nscd {
+	/// What a contact did in a step that was solved.
+	struct Sliding {
+		long     number; // of the step; no other has it
+		Real     way; // by which it has slipped at its velocity of the end [m], 0 or more
+		Real     speed, meanSpeed; // at the end, and the mean of beginning and end [m/s], 0 or more
+		Real     pressed; // normal impulse [N s], compression positive
+		Real     lost; // by sliding [J]
+		bool     bears; // it could bear something along the tangent
+		Vector3r place; // contact point [m]
+	};
+}
+
 class NscdPhys : public FrictPhys {
 	Real forcesNoted = NaN; // beside what is compared with it
 
@@ -22,8 +35,8 @@ public:
 	virtual ~NscdPhys() = default;
 	/// Sets F_a [N], μ_s and μ_r ℓ [m] of the next step for a gap [m]; adhesionRange in units of ℓ.
 	virtual void updateThresholds(Real gap, Real adhesionRange);
-	/// Notes a way [m] slipped in a step, by a number that no other step has.
-	virtual void addSlip(Real, long) { }
+	/// Notes what it did in a step, where it countsSlip.
+	virtual void noteSliding(const nscd::Sliding&) { }
 	virtual bool countsSlip() const { return false; }
 	/// A script has set an attribute; nscd::Resident takes it up. C++ that changes one where no engine has its turn sets this too.
 	void postLoad(NscdPhys&)
@@ -137,7 +150,7 @@ class SlipWeakeningPhys : public NscdPhys {
 public:
 	virtual ~SlipWeakeningPhys() { nscd::letGo(wallMaterial); }
 	void updateThresholds(Real gap, Real adhesionRange) override;
-	void addSlip(Real distance, long step) override;
+	void noteSliding(const nscd::Sliding& sliding) override;
 	bool countsSlip() const override { return true; }
 	// clang-format off
 	YADE_CLASS_BASE_DOC_ATTRS_CTOR_PY(SlipWeakeningPhys,NscdPhys,

@@ -1,7 +1,6 @@
 // The projections of the contact law, branch by branch, and the functions of slip.
 #include <cmath>
 #include <contact/law.hpp>
-#include <contact/slip_weakening.hpp>
 #include <gtest/gtest.h>
 
 using namespace nonsmooth::contact;
@@ -159,37 +158,6 @@ TEST(Law, InverseDelassusOfDisks)
 	EXPECT_EQ(none.n, 0); // two walls: nothing can move, and nothing is divided by zero
 	EXPECT_EQ(none.t, 0);
 	EXPECT_EQ(none.r, 0);
-}
-
-TEST(SlipWeakening, StepKeepsAllThenNothing)
-{
-	EXPECT_EQ(slipWeakening("step", 0, 5), 1);
-	EXPECT_EQ(slipWeakening("step", std::nextafter(5, 0), 5), 1);
-	EXPECT_EQ(slipWeakening("step", 5, 5), 0);
-	EXPECT_EQ(slipWeakening("step", 50, 5), 0);
-}
-
-TEST(SlipWeakening, LinearAndExponential)
-{
-	EXPECT_EQ(slipWeakening("linear", 0, 4), 1);
-	EXPECT_DOUBLE_EQ(slipWeakening("linear", 1, 4), 0.75);
-	EXPECT_EQ(slipWeakening("linear", 4, 4), 0);
-	EXPECT_EQ(slipWeakening("linear", 9, 4), 0);
-	EXPECT_EQ(slipWeakening("exponential", 0, 4), 1);
-	EXPECT_DOUBLE_EQ(slipWeakening("exponential", 4, 4), std::exp(-1));
-}
-
-TEST(SlipWeakening, RefusesWhatItDoesNotKnow)
-{
-	EXPECT_THROW(slipWeakening("linear", 1, 0), std::invalid_argument);
-	EXPECT_THROW(slipWeakening("linear", 1, -1), std::invalid_argument);
-	EXPECT_THROW(slipWeakening("linear", 1, std::nan("")), std::invalid_argument);
-	try {
-		slipWeakening("quadratic", 1, 1);
-		FAIL() << "an unknown function was taken";
-	} catch (const std::invalid_argument& error) {
-		EXPECT_NE(std::string(error.what()).find("'quadratic'"), std::string::npos);
-	}
 }
 
 } // namespace

@@ -1,8 +1,8 @@
 // Strength as a function of slip alone (Taboada and Estrada 2009, section 5.3):
 //     τ = σ (f_w + (f − f_w) left(δ)) ,   f > f_w ,   left(0) = 1 ,
 // with f and f_w the friction before and after. Where f ≤ f_w nothing weakens.
-// Walls of SlipWeakeningMat, which lower friction and cohesion by the share that is left for the slip of a body, have
-// the same functions in contact/slip_weakening.hpp.
+// Walls of SlipWeakeningMat ask for the share that is left after the slip of a body, and lower friction and cohesion by
+// it.
 #pragma once
 
 #include <contact/slip/law.hpp>

@@ -6,6 +6,7 @@
 #pragma once
 
 #include "../NscdPhys.hpp"
+#include "../SlipSurfacePhys.hpp"
 #include "../Segment.hpp"
 #include <contact/plane/bond.hpp>
 #include <pkg/dem/ScGeom.hpp>
@@ -96,11 +97,12 @@ inline Vector3r vectorOf(const nonsmooth::contact::plane::YieldPath& path)
 /// Component of a unit normal along z up to which it lies in the plane.
 constexpr Real flatness = 1e-6;
 
-/// The cohesive physics of an interaction, null if it has another; the usual two classes are recognised without a search.
+/// The cohesive physics of an interaction, null if it has another; the usual classes are recognised without a search.
 inline NscdPhys* physOf(IPhys& phys)
 {
 	const auto& type = typeid(phys);
-	if (type == typeid(NscdPhys) || type == typeid(SlipWeakeningPhys)) return static_cast<NscdPhys*>(&phys);
+	if (type == typeid(NscdPhys) || type == typeid(SlipWeakeningPhys) || type == typeid(SlipSurfacePhys))
+		return static_cast<NscdPhys*>(&phys);
 	return dynamic_cast<NscdPhys*>(&phys);
 }
 

@@ -126,7 +126,12 @@ void ContactSeam::gather(Scene& scene, Resident& from, const Vector3r& gravity, 
 	gatherBodies(scene, gravity);
 	takeGivenMotion(scene);
 	checkShapes(scene, resident->bodies, resident->shaped);
-	if (materialsOf != resident->taken) checkMaterials(scene, resident->bodies);
+	if (materialsOf != resident->taken) {
+		checkMaterials(scene, resident->bodies);
+		surfaces = slipSurfacesOf(scene);
+		for (auto* surface : surfaces)
+			surface->open(scene, relaxation.step);
+	}
 	materialsOf = resident->taken;
 	divide(scene);
 	const auto&  order = resident->order;

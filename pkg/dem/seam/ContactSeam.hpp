@@ -155,6 +155,7 @@ private:
 		return followed && sequence.impacts[link.impacts].count > 0 ? &sequence.impacts[link.impacts] : nullptr;
 	}
 	nonsmooth::contact::Impulse impulseOfStep(size_t k) const;
+	Sliding                     slidingOf(size_t contact, long number) const;
 	void scatterContacts(size_t begin, size_t end, bool rates, StepSums& result, char& slips);
 	bool scatterContact(size_t k, const nonsmooth::contact::Impulse& u, Reading& reading) const;
 	void sumReactions();
@@ -206,8 +207,9 @@ private:
 	Relaxation                               relaxation { 1, 0, 0, 0, 0 };
 	std::vector<nonsmooth::contact::Contact> leftContacts; // left out of the solve, with
 	std::vector<Link>                        leftLinks; // their links
-	int                                      threads     = 1;
-	int                                      recalls     = 0; // of this step
+	int                                      threads = 1;
+	int                                      recalls = 0; // of this step
+	std::vector<SlipSurfaceMat*>             surfaces; // walls with cells
 	long                                     materialsOf = -1; // reading of bodies whose materials were looked at
 	std::vector<nonsmooth::contact::Twist>
 	        before; // velocities at the beginning of the step, after the impacts that were followed

@@ -186,6 +186,26 @@ void ContactSeam::scatterContacts(size_t begin, size_t end, bool rates, StepSums
 	slips                             = anySlips;
 }
 
+Sliding ContactSeam::slidingOf(size_t k, long number) const
+{
+	const Contact& c = problem.contacts[k];
+	const Real     h = relaxation.step, pressed = impulseOfStep(k).n;
+	const Impulse  u0      = contact::relativeVelocity(c, before[c.i], before[c.j]);
+	const Impulse  u1      = contact::relativeVelocity(c, problem.velocities[c.i], problem.velocities[c.j]);
+	const auto*    impacts = impactsAt(links[k]);
+	Sliding        s;
+	s.number    = number;
+	s.way       = std::abs(h * u1.t);
+	s.speed     = std::abs(u1.t);
+	s.meanSpeed = 0.5 * std::abs(u0.t + u1.t);
+	s.pressed   = pressed;
+	s.lost      = (impacts ? impacts->slidingLoss : 0)
+	        - 0.5 * problem.impulses[k].t * (u0.t + u1.t); // as sumContact has it
+	s.bears = pressed + c.adhesion > 0;
+	s.place = readingOf(links[k]).geom->contactPoint;
+	return s;
+}
+
 StepSums ContactSeam::scatter(Scene& scene, const Vector3r& gravity, int threadCount, bool rates)
 {
 	threads = threadCount;
@@ -222,13 +242,11 @@ StepSums ContactSeam::scatter(Scene& scene, const Vector3r& gravity, int threadC
 	const long               number = ++allSteps;
 	for (size_t part = 0; part < chunksC; ++part)
 		for (size_t k = part * sumChunk; slip[part] && k < std::min((part + 1) * sumChunk, count); ++k) {
-			const Contact& c = problem.contacts[k];
 			const Reading& r = readingOf(links[k]);
-			if (!r.slips || impulseOfStep(k).n + c.adhesion <= 0) continue;
-			const auto apart = contact::relativeVelocity(
-			        c, problem.velocities[c.i], problem.velocities[c.j]);
-			r.phys->addSlip(std::abs(h * apart.t), number);
+			if (r.slips) r.phys->noteSliding(slidingOf(k, number));
 		}
+	for (auto* surface : surfaces)
+		surface->close(h);
 	broken.clear();
 	for (size_t part = 0; part < chunksC; ++part)
 		for (size_t k = part * sumChunk; parts[part].anyBroken() && k < std::min((part + 1) * sumChunk, count);

@@ -3,7 +3,8 @@ from mutant import mutant
 
 SLIP = "pkg/contact/slip/"
 ZONE, PROFILE, WATER, FLASH = SLIP + "heated_zone.cpp", SLIP + "profile.cpp", SLIP + "water.hpp", SLIP + "flash_heating.cpp"
-REACTION, MELT, TABLE = SLIP + "decomposition.cpp", SLIP + "shear_melting.cpp", SLIP + "tabulated.cpp"
+REACTION, MELT, TABLE, MATERIAL = SLIP + "decomposition.cpp", SLIP + "shear_melting.cpp", SLIP + "tabulated.cpp", "pkg/dem/NscdMat.cpp"
+CELLS, GRID = "pkg/dem/SlipSurfaceMat.cpp", "pkg/dem/WallCells.cpp"
 BLOCK, SETS, FIGURE = ("py/nonsmooth/slip/block.py", "py/nonsmooth/slip/parameter_sets.py", "py/nonsmooth/figures/sliding_block.py")
 
 MUTANTS = (
@@ -55,6 +56,21 @@ MUTANTS = (
     mutant("slip-table-log", TABLE, "slipRate > 0 ? std::log(slipRate) : logs.front()", "slipRate", "a table is read at the velocity for its logarithm",
            "gtest:SlipTable.*", "verify:tabulated-friction"),
     mutant("slip-table-lag", TABLE, "-std::expm1(-cells.path[c] / lag)", "cells.path[c] / lag", "a lag depends on the step", "gtest:SlipTable.*"),
+    # ---- the material
+    mutant("slip-material", MATERIAL, "law ? law->left(slipOf(id)) : 1", "1", "slip takes nothing from a wall", "test_contact_law.py", "test_soft_walls.py"),
+    mutant("slip-material-law", MATERIAL, "law.reset();", "if (law) return checkWeakening();", "a wall keeps the law that it had first", "test_contact_law.py"),
+    # ---- cells on walls
+    mutant("surface-heat", CELLS, "lostOf[c] / length", "lostOf[c]", "heat of a cell is not that of its area", "test_slip_surface.py"),
+    mutant("surface-heat-sum", CELLS, "heat += lostOf[c];", "heat = lostOf[c];", "a wall's heat is that of its last cell", "test_slip_surface.py"),
+    mutant("surface-mean-speed", CELLS, "h * meanSpeedOf[c] / weight", "h * speedOf[c] / weight", "a cell slips by the speed of a step's end", "test_slip_surface.py"),
+    mutant("surface-stress", CELLS, "std::max(Real(0), pressedOf[c] / (h * length))", "std::max(Real(0), pressedOf[c] / h)", "stress is a force", "test_slip_surface.py"),
+    mutant("surface-mean", CELLS, "std::min(Real(1), cells.path[c] / std::min(way, averaging))", "Real(1)", "stress of a cell is that of the last step", "test_slip_surface.py"),
+    mutant("surface-friction", CELLS, "cells.strength[c] / cells.normalStress[c]", "first", "friction does not follow the law", "test_slip_surface.py"),
+    mutant("surface-forget", CELLS, "		cells.slip.assign(slip.begin(), slip.end());", "		cells.slip.assign(slip.size(), 0);", "slip is forgotten when a scene is loaded", "test_slip_surface.py"),
+    mutant("surface-chain", GRID, "if (!joined) chains.push_back({});", "if (pieces.empty()) chains.push_back({});", "walls apart are one", "test_slip_surface.py"),
+    mutant("surface-at", GRID, "piece->begin + std::clamp(wayOf(wall, point), Real(0), piece->length)", "std::clamp(wayOf(wall, point), Real(0), piece->length)", "each wall begins the chain", "test_slip_surface.py"),
+    mutant("surface-arc", GRID, "arc->radius * (std::atan2(local[1], local[0]) + arc->halfAngle)", "arc->radius * std::atan2(local[1], local[0])", "an arc begins in its middle", "test_slip_surface.py"),
+    mutant("surface-impacts", "pkg/dem/seam/ContactSeamScatter.cpp", "0.5 * std::abs(u0.t + u1.t);", "std::abs(u0.t + u1.t);", "slip is twice the way", "test_slip_surface.py"),
     # ---- the block
     mutant("block-heat", BLOCK, "strength * path, after", "push * path, after", "heat is what the weight does", "test_slip_block.py", "verify:adiabatic-block"),
     mutant("block-up", BLOCK, "max(0.0, speed + gains * (push - strength))", "speed + gains * (push - strength)", "friction drives a block up the slope", "test_slip_block.py"),

@@ -1,7 +1,7 @@
 """Law, sweeps, order of the sweep, residuals, and the search for neighbours: plain C++, judged by GoogleTest."""
 from mutant import mutant
 
-LAW, KERNELS, PROBLEM, SLIP = ("pkg/contact/law.hpp", "pkg/contact/block_kernels.inc", "pkg/contact/problem.hpp", "pkg/contact/slip_weakening.hpp")
+LAW, KERNELS, PROBLEM = ("pkg/contact/law.hpp", "pkg/contact/block_kernels.inc", "pkg/contact/problem.hpp")
 SOLVER, SWEEPER, CORRECTION = ("pkg/contact/solve.tpp", "pkg/contact/sweeper.tpp", "pkg/contact/position_correction.cpp")
 ACCESS, LOOPS, CORRECT = "pkg/contact/lane_access.inc", "pkg/contact/block_loops.inc", "pkg/contact/correct.tpp"
 BLOCKS, RESIDUAL, STOPPING = ( "pkg/contact/contact_blocks.tpp", "pkg/contact/residual.cpp", "pkg/contact/stopping.cpp")
@@ -161,9 +161,6 @@ MUTANTS = (
     mutant("stopping-qm16", STOPPING, "std::max(quad, maxm / maxmToQuad)", "std::min(quad, maxm / maxmToQuad)", "QM/16 is the smaller of its two figures",
            "gtest:Stopping.*"),
     mutant("stopping-drift", STOPPING, "drift += contact.drift;", "drift += contact.change;", "the drift is no work", "gtest:Stopping.*"),
-    mutant("slip-linear", SLIP, "slip < critical ? 1 - slip / critical : 0", "slip < critical ? slip / critical : 0", "linear weakening begins with nothing",
-           "gtest:SlipWeakening.*"),
-    mutant("slip-step", SLIP, "slip < critical ? 1 : 0", "slip <= critical ? 1 : 0", "strength is there at D_c still", "gtest:SlipWeakening.*"),
     mutant("refuse-friction", CHECK, "c.adhesion >= 0 && c.friction >= 0", "c.adhesion >= 0", "a negative friction is taken", "gtest:Refusal.*"),
     # ---- neighbours
     mutant("grid-margin", GRID, "std::min(e.margin, o.margin)", "std::max(e.margin, o.margin)", "pairs are looked for within the larger margin", "gtest:DiskGrid.*"),

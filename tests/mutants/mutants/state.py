@@ -28,7 +28,7 @@ MUTANTS = (
     mutant("sure-reach-changed", COLLIDER, "sureReach != sureReachOfLists", "false", "a changed sure reach counts with the next search",
            OUTLIVED + "::test_a_sure_reach_that_is_changed_counts_at_once"),
     # ---- materials and bonds
-    mutant("renew-class", PHYS, "if (!was && !is) return;", "return;", "a wall keeps the law of its former material", OUTLIVED + "::test_a_wall_takes_the_law_of_its_new_material"),
+    mutant("renew-class", PHYS, "if (isSameKind(old, *made)) return;", "return;", "a wall keeps the law of its former material", OUTLIVED + "::test_a_wall_takes_the_law_of_its_new_material"),
     mutant("renew-bond", PHYS, "static_cast<NscdPhys&>(*made) = old;", "setStrengths(*made, b1, b2);", "a bond is lost where its wall weakens now",
            OUTLIVED + "::test_a_bond_survives_that_its_wall_weakens_now"),
     mutant("bond-wanted", LOOP, "bond.marks.normal.x == 0 && bond.marks.normal.y == 0", "false", "a bond that a script sets lives for ever", OUTLIVED + "::test_a_bond_that_a_script_sets_is_a_bond"),
