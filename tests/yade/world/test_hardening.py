@@ -70,6 +70,8 @@ def test_a_packing_settles_and_the_floor_bears_it():
     told = harden(O, tolerance=1e-6)
     assert O.dt > 3 * soft_step and told.step == O.dt and told.soft_step == soft_step
     assert [b.state.mass for b in O.bodies] == masses
+    # the scene's, so that what is made by its label later is of the same material
+    assert all(O.materials[b.material.id].label == b.material.label and b.material.id >= 0 for b in O.bodies)
     O.run(round(4 / O.dt), True)
     weight = 9.81 * sum(b.state.mass for b in O.bodies if b.dynamic)
     held = -sum(O.forces.f(b.id)[2] for b in O.bodies if not b.dynamic)
