@@ -187,6 +187,17 @@ def test_a_step_of_the_caller_s_own():
         assert O.dt == (expected or soft_step)
 
 
+def test_a_loop_that_does_not_run_says_nothing():
+    """Nor does it become one that does."""
+    box_of_spheres()
+    idle = InteractionLoop([], [], [Law2_ScGeom_CpmPhys_Cpm()], dead=True)
+    O.engines = O.engines[:2] + [idle] + O.engines[2:]
+    harden(O)
+    loops = [e for e in O.engines if isinstance(e, InteractionLoop) and not e.dead]
+    assert len(loops) == 1 and len(loops[0].geomDispatcher.functors) > 0
+    assert O.engines[2].dead and len(O.engines[2].geomDispatcher.functors) == 0
+
+
 def unchanged(state):
     return [type(b.material).__name__ for b in O.bodies], [type(e).__name__ for e in O.engines], O.dt
 
