@@ -110,6 +110,15 @@ TEST(SlipPressurization, WithoutDiffusionStrengthDecaysExponentially)
 	EXPECT_LT(one.cells.strength[0], 1);
 }
 
+TEST(SlipPressurization, AStepForeseesTheHeatThatItMakes)
+{
+	Driven       one({ "thermal_pressurization" }, adiabatic(), 2.183e6);
+	const double critical = undrainedCriticalSlip(2.85e6, 0.01, 0.4, 6.7e4);
+	one.slip(1, 0.1 * critical, 10);
+	// the integral of the strength over the slip; of second order in h V/D_c = 0.1, without foresight 3 % too much
+	EXPECT_NEAR(one.made / (0.4 * 2.183e6 * critical * (1 - std::exp(-1))), 1, 2e-3);
+}
+
 TEST(SlipPressurization, WeakensLessWhereWaterLeaves)
 {
 	const Given drained = with(

@@ -64,7 +64,7 @@ def run(place, kinds, number, limit, *options):
     if kinds["gtest"]:
         # ccache may have made the path of a test's source, by which it finds its data, one from the build folder on
         yield "gtest", *place.run(
-            [place.tests, "--gtest_brief=1", f"--gtest_filter={':'.join(kinds['gtest'])}"],
+            [place.tests, "--gtest_brief=1", "--gtest_fail_fast", f"--gtest_filter={':'.join(kinds['gtest'])}"],
             number,
             limit,
             place.tests.parent,

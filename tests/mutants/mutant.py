@@ -42,10 +42,6 @@ class Mutant:
     tests: tuple
     slow: bool = False
 
-    def __post_init__(self):
-        if not self.tests:
-            raise TableError(f"mutant {self.name}: has no tests that should see it; is there a comma before the first?")
-
     @property
     def number(self):
         """Of the switch: the same one whatever stands before it in the table, so that objects need not be built
@@ -63,7 +59,9 @@ class Mutant:
 
 
 def mutant(name, file, old, new, broken, *tests, slow=False):
-    """A Mutant of one line."""
+    """A Mutant of one line. Raises TableError where no test should see it."""
+    if not tests:
+        raise TableError(f"mutant {name}: has no tests that should see it; is there a comma before the first?")
     return Mutant(name, broken, ((file, old, new),), tests, slow)
 
 

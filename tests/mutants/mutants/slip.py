@@ -21,7 +21,7 @@ MUTANTS = (
     mutant("slip-half-zone", ZONE, "1 / (heatCapacity * width())", "2 / (heatCapacity * width())", "all heat goes into one half of the zone",
            "verify:adiabatic-block", "gtest:SlipPressurization.*"),
     mutant("slip-without-foresight", ZONE, "end < 0 || x > 2 ? std::max(B, 0.0) / (1 + x) : 0.5 * (now + end)", "std::max(B, 0.0)",
-           "a step's strength does not foresee its own heat", "verify:adiabatic-block"),
+           "a step's strength does not foresee its own heat", "gtest:SlipPressurization.AStepForeseesTheHeatThatItMakes"),
     mutant("slip-pressure-of-diffusion", ZONE, "s.pressure[k] + expand * (T[k] - s.temperature[k])", "s.pressure[k]",
            "water does not shrink where the zone cools by diffusion", "verify:slip-on-a-plane"),
     mutant("slip-water-stays", ZONE, "ofWater.prepare(mesh, parts.water->diffusivity, h);", "ofWater.prepare(mesh, diffusivity, h);",

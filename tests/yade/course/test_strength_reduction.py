@@ -94,6 +94,14 @@ def test_the_share_done_grows_to_one():
     assert shares == sorted(shares) and shares[0] == 0 and shares[-1] == 1 and max(shares[:-1]) < 1
 
 
+def test_the_share_of_a_bracket_is_by_the_halvings_that_are_left():
+    chosen = rules()
+    # 4 and 2 times as wide as wanted: 2 and 1 halvings
+    for width, left in ((4, 2), (2, 1), (1, 0), (0.5, 0)):
+        state = dataclasses.replace(reduction.SearchState(), stable=1.0, failed=1 + width * chosen.within)
+        assert reduction.share(state, chosen) == pytest.approx(0.5 + 0.5 / (1 + left))
+
+
 # ---- a trial ------------------------------------------------------------------------------------
 def trial(speed, way=lambda t: 0.0, broken=lambda t: 0.0, **numbers):
     """What became of a trial with this history, and when [s]."""

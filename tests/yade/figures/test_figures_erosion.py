@@ -42,6 +42,14 @@ def test_disks_that_were_taken_have_the_colour_of_their_time():
     assert len({tuple(c) for c in (first, later, last, colours[0])}) == 4
 
 
+def test_the_bar_of_lengths_is_a_fifteenth_and_more_of_the_picture():
+    ax = figures.erosion(INITIAL, LEDGER, TWO, SERIES).axes[0]
+    (bar,) = (line for line in ax.lines if line.get_zorder() == 7)
+    x0, x1 = ax.get_xlim()
+    length = float(np.ptp(bar.get_xdata())) * (x1 - x0)
+    assert length == pytest.approx(style.nice(0.15 * (x1 - x0)))
+
+
 def test_windows_stand_where_they_began_and_where_they_took_their_last_disk():
     ax = figures.erosion(INITIAL, LEDGER, TWO, SERIES).axes[0]
     outlines = [drawn.points(line) for line in ax.lines if line.get_zorder() == 6]

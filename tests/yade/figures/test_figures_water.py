@@ -44,6 +44,7 @@ def test_a_seepage_has_its_free_surface_its_scale_and_what_lines_mean():
     ax = fig.axes[0]
     (line,) = (one for one in lines(ax, style.WATER))
     assert np.array_equal(line, result.phreatic_line()[0])
+    assert (ax.get_xlim(), ax.get_ylim()) == (pytest.approx((-0.4, 20.4)), pytest.approx((-0.4, 10.4)))
     assert limits(fig) == (0, 10) and fig.axes[-1].get_ylabel() == "pressure head $p/γ_w$ [m]"
     told = [text.get_text() for text in ax.get_legend().get_texts()]
     assert told == ["equal head, a tenth of its range apart", "flow line", "free surface"]

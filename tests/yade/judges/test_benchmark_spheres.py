@@ -37,6 +37,15 @@ def test_packings_touch_where_their_contacts_say_and_are_borne(made):
     assert 0.8 * weight < gained < 1.01 * weight
 
 
+def test_grains_lean_on_floor_and_sides_where_their_rows_end():
+    """Rows along a side are displaced by half a grain, and lean on it all; on the floor lies the lowest layer alone."""
+    problem = spheres.spheres(6, 5)
+    wall = problem.body[:, 0] == len(problem.position) - 1
+    counted = {tuple(n): int(c) for n, c in zip(*np.unique(problem.normal[wall], axis=0, return_counts=True))}
+    sides = {(s * a, s * b, 0.0): 5 * 6 for a, b in ((1.0, 0.0), (0.0, 1.0)) for s in (1, -1)}
+    assert counted == {**sides, (0.0, 0.0, 1.0): 6 * 6}
+
+
 def up(problem):
     """Column of velocities along which gravity pulls."""
     return problem.normal.shape[1] - 1

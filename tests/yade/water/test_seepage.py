@@ -310,6 +310,12 @@ def test_water_that_drips_from_a_seam_of_clay_falls_through_dry_ground(monkeypat
     # between what the sand carries, its part below the seam under pressure alone, and a body of sand
     assert 8 * 15 / 40 < result.inflow_on(left) < (18**2 - 3**2) / 80
     assert result.inflow_on(left) == pytest.approx(-result.inflow_on(right), rel=1e-9)
+    # near the low side the seam hangs over dry ground, through which falls what it lets through
+    x = mesh.nodes[mesh.triangles].mean(axis=1)[:, 0]
+    seeps, falls = ((x > 36) & (y > low) & (y < low + 1) for low in (9, 7))
+    assert result.wet[falls].max() < 1e-6
+    through, on = (float((result.flux[rows, 1] * mesh.area[rows]).sum()) for rows in (seeps, falls))
+    assert on == pytest.approx(through, rel=0.06) and on < 0  # dry sand lets a little go aside
     monkeypatch.setattr(seepage, "FALLING", 0.0)
     with pytest.raises(seepage.Unconverged, match="or a larger dry share"):
         seepage.solve(seam, [1.0, 3e-3], given)

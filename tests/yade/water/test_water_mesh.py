@@ -64,6 +64,12 @@ def test_points_on_edges_belong_to_one_triangle_and_those_outside_to_none():
     assert (notched.locate(GRID.nodes[GRID.triangles].mean(axis=1)) < 0).sum() == 2
 
 
+def test_a_corner_that_ends_where_a_box_of_the_search_begins_is_found():
+    """Nothing of the body lies beyond it there."""
+    apart = Mesh.of([(0, 0), (1, 0), (0, 1), (2, 0), (3, 0), (2, 1)], [(0, 1, 2), (3, 4, 5)])
+    assert apart.locate([(1, 0), (0, 1), (3, 0), (1.5, 0)]).tolist() == [0, 0, 1, -1]
+
+
 def test_a_mesh_of_arrays_is_turned_and_rid_of_idle_nodes():
     mesh = Mesh.of([(9, 9), (0, 0), (1, 0), (0, 1)], [(1, 3, 2)])
     assert mesh.nodes.tolist() == [[0, 0], [1, 0], [0, 1]] and mesh.triangles.tolist() == [[0, 1, 2]]

@@ -22,7 +22,7 @@ from nonsmooth.judges.verification.water.drawdown import (
     layer_on_a_plane,
     seeping,
 )  # noqa: E402
-from nonsmooth.water import WaterError, of_section  # noqa: E402
+from nonsmooth.water import WaterError, of_section, section_seepage  # noqa: E402
 
 
 @pytest.mark.parametrize("case", drawdown.BOOKS)
@@ -76,12 +76,12 @@ def test_still_water_is_still_in_the_ground_and_over_it():
     assert found == pytest.approx(deep, abs=1e-6) and deep.any() and not deep.all()
 
 
-def test_two_reservoirs_stand_where_their_lines_are():
-    """A bank of 20 m between two lakes; what none of them names is open to air."""
+def bank():
+    """A bank of 20 m between two lakes."""
     rock = {"friction": 0.5, "rolling_friction": 0.1, "bonded": False, "density": 2000.0}
     ground = {"friction": 0.5, "rolling_friction": 0.1, "bonded": False}
     left, right = [[-40.0, 0.0], [-10.0, 20.0]], [[10.0, 20.0], [40.0, 0.0]]
-    made = section.of(
+    return section.of(
         name="bank",
         walls=[
             {"name": "base", "material": "ground", "vertices": [[-60.0, 0.5], [-40.0, 0.0], [40.0, 0.0], [60.0, -0.5]]}
@@ -99,11 +99,37 @@ def test_two_reservoirs_stand_where_their_lines_are():
             }
         },
     )
+
+
+def test_two_reservoirs_stand_where_their_lines_are():
+    """A bank of 20 m between two lakes; what none of them names is open to air."""
+    made = bank()
     field = of_section.field(made)
     places = [[-50.0, 3.0], [-35.0, 6.0], [50.0, 3.0], [35.0, 4.0], [50.0, 6.0], [-20.0, 15.5]]
     assert field.pressure(places, 0.0, outside="dry") / 9810 == pytest.approx([12, 9, 2, 1, 0, 0], abs=1e-9)
     heads = [float(field.pressure([[x, 0.5]])[0]) / 9810 + 0.5 for x in (-35.0, 0.0, 35.0)]
     assert 15.0 >= heads[0] > heads[1] > heads[2] >= 5.0
+
+
+@pytest.mark.parametrize(
+    "level, area", [(40.0, 120 * 40 - 1000), (20.0, 120 * 20 - 1000), (10.0, 2 * (20 * 10 + 10 * 15 / 2))]
+)
+def test_columns_of_open_water_fill_what_lies_over_the_ground(level, area):
+    """Under a lake that drowns the bank, one that reaches its top, and one that reaches half of it, on either side."""
+    corners = section_seepage._columns(bank(), level)
+    areas = [0.5 * float(np.sum(x * np.roll(y, -1) - np.roll(x, -1) * y)) for x, y in (one.T for one in corners)]
+    # 5 m² more on the left are 5 m² less on the right
+    assert min(areas) > 0 and sum(areas) == pytest.approx(area, rel=1e-12)
+
+
+def test_the_flow_of_a_state_has_its_heads(drawn_down):
+    made, field = drawn_down
+    told = section_seepage.flow(made, field)
+    for time in (0.0, 7.0, 9.0):
+        head, flux, wet, largest = told(time)
+        assert head == pytest.approx(field.at(time) / 9810 + field.mesh.nodes[:, 1])
+        assert flux.shape == (len(field.mesh.triangles), 2) and np.all((wet >= 0) & (wet <= 1))
+        assert not flux[wet == 0].any() and 1e-5 <= largest <= 2e-5
 
 
 def test_rain_raises_the_water_and_an_artesian_base_lifts():

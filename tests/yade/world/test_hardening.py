@@ -70,6 +70,8 @@ def test_a_packing_settles_and_the_floor_bears_it():
     told = harden(O, tolerance=1e-6)
     assert O.dt > 3 * soft_step and told.step == O.dt and told.soft_step == soft_step
     assert [b.state.mass for b in O.bodies] == masses
+    # the scene's, so that what is made by its label later is of the same material
+    assert all(O.materials[b.material.id].label == b.material.label and b.material.id >= 0 for b in O.bodies)
     O.run(round(4 / O.dt), True)
     weight = 9.81 * sum(b.state.mass for b in O.bodies if b.dynamic)
     held = -sum(O.forces.f(b.id)[2] for b in O.bodies if not b.dynamic)
@@ -183,6 +185,17 @@ def test_a_step_of_the_caller_s_own():
         soft_step = O.dt
         harden(O, step=step)
         assert O.dt == (expected or soft_step)
+
+
+def test_a_loop_that_does_not_run_says_nothing():
+    """Nor does it become one that does."""
+    box_of_spheres()
+    idle = InteractionLoop([], [], [Law2_ScGeom_CpmPhys_Cpm()], dead=True)
+    O.engines = O.engines[:2] + [idle] + O.engines[2:]
+    harden(O)
+    loops = [e for e in O.engines if isinstance(e, InteractionLoop) and not e.dead]
+    assert len(loops) == 1 and len(loops[0].geomDispatcher.functors) > 0
+    assert O.engines[2].dead and len(O.engines[2].geomDispatcher.functors) == 0
 
 
 def unchanged(state):

@@ -92,11 +92,13 @@ def hard_engines(engines, shapes, in_plane, options):
     touched = {kind: functors for kind, functors in _SHAPES.items() if kind in shapes or kind is Sphere}
     newton = newton_of(engines)
     made, rows = [], []
-    if not any(isinstance(e, ForceResetter) for e in engines):
+    if not any(isinstance(e, ForceResetter) and not e.dead for e in engines):
         made.append(ForceResetter())
     for engine in engines:
         name = type(engine).__name__
-        if isinstance(engine, TimeStepper):
+        if engine.dead:
+            made.append(engine)
+        elif isinstance(engine, TimeStepper):
             rows.append((name, "dropped: the step of rigid contacts does not depend on stiffness"))
         elif isinstance(engine, Collider):
             made.append(_collider(engine, touched, in_plane))

@@ -345,6 +345,8 @@ def test_one_stiffness_gives_no_exponent_and_the_report_of_cost_says_so(tmp_path
         "known; give --stiffness two values or more. A rock's stiffness, 10 GPa, would take 10 times as long as rigid disks "
         "(extrapolated)."
     )
+    ((_, _, (sentence, *_)),) = cost_report.write(tmp_path / "other", costs_told(81e6))
+    assert "whose mean overlap is 0.012 of the mean diameter" in sentence  # two digits
     page = (tmp_path / "report.html").read_text()
     assert "E not known" not in page and "as another: ." not in page and page.count(cost_report.ONE_STIFFNESS) == 3
     ((_, _, sentences),) = cost_report.write(tmp_path, costs_told(1e8, 1e9))

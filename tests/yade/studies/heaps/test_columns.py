@@ -416,6 +416,8 @@ def test_study_keeps_what_has_ended(tmp_path):
     first = study.run(cases, tmp_path, duration=0.5)
     written = (tmp_path / "runs" / "one" / "result.json").stat().st_mtime_ns
     assert study.run(cases, tmp_path, resume=True, duration=0.5) == first
+    end = records.read_snapshot(tmp_path / "runs" / "one" / study.SNAPSHOTS / "end.npz")
+    assert end.time_s == first["one"]["time_s"] > 0 and end.step == first["one"]["steps"]
     assert (tmp_path / "runs" / "one" / "result.json").stat().st_mtime_ns == written
     soft = dict(name="soft", stiffness=1e9)
     assert (

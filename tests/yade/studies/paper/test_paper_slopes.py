@@ -250,6 +250,26 @@ def test_the_figures_are_of_the_runs_that_there_are(whole, monkeypatch, tmp_path
     assert paper_figures.draw({"no-weakening": [run]}, tmp_path) == []
 
 
+def test_variants_of_release_are_drawn_beside_the_shipped_slope(whole, monkeypatch, tmp_path):
+    """Those that there are, ten seconds after t2 each."""
+    asked = []
+
+    def releases(cases, path):
+        asked.append(cases)
+        return path
+
+    monkeypatch.setattr(paper_figures.figures, "releases", releases)
+    run = runs.open_run(whole.folder)
+    made = paper_figures.draw({"shipped": [run], "dilatancy": [run], "no-weakening": [run]}, tmp_path)
+    assert made[1] == tmp_path / "paper_release.png"
+    ((shipped, dilatancy),) = asked
+    variants = paper_slopes.VARIANTS
+    assert (shipped[0], dilatancy[0]) == (variants["shipped"].label, variants["dilatancy"].label)
+    times = run.summary["times_s"]
+    assert shipped[1][0][1] == times and len(shipped[1]) == 1
+    assert np.array_equal(shipped[2].x, run.snapshot(times["t2"] + 10.0).x) and shipped[3] is run.section
+
+
 def test_a_slope_that_stood_has_no_figures_of_a_failure(whole, monkeypatch, tmp_path):
     """Nor has one that did not come to rest a t5."""
     kept = drawn.keep(monkeypatch, style)

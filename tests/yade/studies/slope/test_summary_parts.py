@@ -239,6 +239,22 @@ def test_what_a_bed_gives_and_what_lies_beyond_the_foot(tmp_path, side):
     assert found == pytest.approx(wanted | {"deposited_kg_per_m": 2000 * area[5:].sum()}, rel=SAME)
 
 
+@pytest.mark.parametrize("side", [1, -1])
+def test_where_disks_were_taken_out_the_front_is_that_of_those_that_are_left(side):
+    made = synthetic.load("model.section").load("undercut")
+    made = made if side == made.side else similar.mirrored(made)
+    x = np.linspace(0, 30, 7)
+    start = synthetic.few(side * x, 0 * x + 5, r=np.full(7, 0.5), layer=np.zeros(7, int))
+    left = np.arange(6)  # the foremost is gone
+    end = synthetic.few(side * (x[left] + 4), 0 * left + 5.0, r=np.full(6, 0.5), layer=np.zeros(6, int), number=left)
+    series = {"eroded_disks": np.array([0, 1]), "front_m": side * np.array([30.5, 29.5])}
+    assert results._front_travel(made, series, side * 30.5, start, end) == pytest.approx(4.0)
+    assert results._front_travel(made, series, side * 30.5, None, end) is None
+    assert results._front_travel(made, series, side * 30.5, start, None) is None
+    untouched = series | {"eroded_disks": np.array([0, 0])}
+    assert results._front_travel(made, untouched, side * 30.5, None, None) == pytest.approx(-1.0)
+
+
 def test_a_bed_is_told_once_the_run_has_ended(tmp_path):
     names = {"entrained_kg_per_m", "bed_kg_per_m", "deposited_kg_per_m", "mass_kg_per_m"}
     for start, stop in ((known_slope.begin, None), (None, known_slope.end)):
