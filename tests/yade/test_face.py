@@ -146,9 +146,9 @@ def test_a_run_is_opened_from_its_folder(whole):
     )
     near = run.snapshot(3.0)
     assert abs(near.time_s - 3.0) <= 2.5 * scales.of(run.section).row_seconds * 1.001  # every fifth row
-    for name in set(runs.FIGURES) - {"toe", "erosion", "shaking", "water"}:
+    for name in set(runs.FIGURES) - {"toe", "erosion", "shaking", "slip_surface", "water"}:
         assert run.figure(name).axes
-    for name in ("toe", "erosion", "shaking", "water"):
+    for name in ("toe", "erosion", "shaking", "slip_surface", "water"):
         with pytest.raises(runs.RunError, match=f"the figure {name} needs a later stage"):
             run.figure(name)
     labels = {line.get_label() for ax in run.figure("forces").axes for line in ax.lines}

@@ -20,6 +20,7 @@ from .release import releases
 from .runouts import runouts
 from .scene import draw
 from .shaking import shaking
+from .slip_surface import slip_surface
 from .sweep import means
 from .toe import toe, toes
 from .water import pore_pressures, seepage
@@ -44,6 +45,7 @@ __all__ = [
     "means",
     "runouts",
     "shaking",
+    "slip_surface",
     "solver",
     "toe",
     "toes",

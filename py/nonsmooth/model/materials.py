@@ -61,10 +61,8 @@ def _document(name_or_path, option):
     SectionError, material=checks.kind(section.Material, "give a section.Material, as load('wwr') returns one")
 )
 def bare(material):
-    """The material without what rules nothing in a test: what was measured before, and the weakening of walls by
-    slip.
-    """
-    return dataclasses.replace(material, slip_weakening=None, envelope=None)
+    """The material without what rules nothing in a test: what was measured before, and what slip does to walls."""
+    return dataclasses.replace(material, slip_weakening=None, slip_law=None, envelope=None)
 
 
 def smooth(material):
@@ -128,7 +126,9 @@ def of(plain):
 def save(material, path, comment=""):
     """Writes a material file; ``comment``: text for its head."""
     plain = {
-        k: v for k, v in dataclasses.asdict(material).items() if k not in ("name", "slip_weakening") and v is not None
+        k: v
+        for k, v in dataclasses.asdict(material).items()
+        if k not in ("name", "slip_weakening", "slip_law") and v is not None
     }
     plain["bond_ellipse"] = list(plain["bond_ellipse"])
     head = "".join(f"# {line}\n" for line in comment.splitlines())

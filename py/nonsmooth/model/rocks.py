@@ -141,9 +141,9 @@ def resolved(raw: dict, refuse) -> dict:
                 else f"{beside}, which are the envelope",
                 f"leave {key} out, or give friction and tensile_strength of contacts instead of cohesion and friction_angle",
             )
-    if "slip_weakening" in raw:
+    for key in {"slip_weakening", "slip_law"} & raw.keys():
         refuse(
-            ("slip_weakening",),
+            (key,),
             f"{beside}, and only walls weaken with slip, which have the friction of their contacts",
             "give the wall a material with friction instead of cohesion and friction_angle",
         )

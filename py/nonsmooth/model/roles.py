@@ -40,7 +40,9 @@ def assigned(section):
     slip = [
         w.name
         for w in free
-        if section.materials[w.material].slip_weakening or (section.water and section.water.wall == w.name)
+        if section.materials[w.material].slip_weakening
+        or section.materials[w.material].slip_law
+        or (section.water and section.water.wall == w.name)
     ]
     if not slip and "slip" not in given.values() and not any(i.role == "slip" for i in section.interfaces) and free:
         slip = [max(free, key=lambda w: length[w.name]).name]

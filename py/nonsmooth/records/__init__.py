@@ -10,7 +10,7 @@ and what to do.
 from .breaks import BREAK_COLUMNS, read_breaks, write_breaks
 from .columns import LOSSES, OWN, Column, column, declared, own_columns, stem
 from .error import RecordsError
-from .series import SeriesWriter, broken_bonds, kept, read_eroded, read_series, read_walls, since_settled
+from .series import SeriesWriter, broken_bonds, kept, read_eroded, read_series, read_surfaces, read_walls, since_settled
 from .snapshots import Snapshot, in_both, read_snapshot, write_snapshot
 
 __all__ = [
@@ -31,6 +31,7 @@ __all__ = [
     "read_eroded",
     "read_series",
     "read_snapshot",
+    "read_surfaces",
     "read_walls",
     "since_settled",
     "stem",

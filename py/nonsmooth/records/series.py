@@ -15,7 +15,16 @@ from .breaks import BREAK_MODES
 from .columns import STEP, Column
 from .error import RecordsError
 
-__all__ = ["SeriesWriter", "broken_bonds", "kept", "read_eroded", "read_series", "read_walls", "since_settled"]
+__all__ = [
+    "SeriesWriter",
+    "broken_bonds",
+    "kept",
+    "read_eroded",
+    "read_series",
+    "read_surfaces",
+    "read_walls",
+    "since_settled",
+]
 
 
 def _encode(column, value):
@@ -294,6 +303,16 @@ def read_eroded(path):
     A half-written last line is left out. Raises :class:`RecordsError` if the file is missing or damaged.
     """
     return _with_words(path, ("window", "layer"), "the ledger of disks that were taken out", ("step", "disk"))
+
+
+def read_surfaces(path):
+    """Read ``slip_surface.csv``, what slip laws have found in cells along walls: dict from column name to an array of
+    shape (rows,): words for ``wall``, int64 for ``step`` and ``cell``, float64 for the others, NaN where a law has no
+    such number.
+
+    A half-written last line is left out. Raises :class:`RecordsError` if the file is missing or damaged.
+    """
+    return _with_words(path, ("wall",), "the cells of walls with slip laws", ("step", "cell"))
 
 
 def _with_words(path, words, about, counts=()):

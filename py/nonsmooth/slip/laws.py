@@ -101,6 +101,13 @@ class SlipLaw:
         """Whether it has a zone that heats, with temperatures across it."""
         return self._law.heats
 
+    def friction(self):
+        """Friction [-] before slip."""
+        self._law.prepare(1.0)
+        one = self._law.cells(1, 1e6)
+        self._law.strength(one)
+        return float(one.strength[0]) / 1e6
+
     def cells(self, count=1, normal_stress=0.0):
         """``count`` cells under a stress [Pa] that have not slipped.
 

@@ -183,7 +183,7 @@ class SlopeRun(StudyRun):
     kind, COLUMNS, FURTHER = "slope", slope_columns.COLUMNS, slope_columns.FURTHER
     #: The columns of ``walls.csv``: {name: Column}.
     WALL_COLUMNS = slope_columns.WALL_COLUMNS
-    TABLES = ("series", "walls", "breaks", "eroded")
+    TABLES = ("series", "walls", "breaks", "eroded", "slip_surface")
 
     @cached_property
     def section(self):
@@ -206,6 +206,13 @@ class SlopeRun(StudyRun):
         where the section has no windows that take some.
         """
         return records.read_eroded(self._file(results.LEDGER))
+
+    @cached_property
+    def slip_surface(self) -> dict:
+        """Columns of ``slip_surface.csv``: {name: array (rows,)}, a row for each cell of a wall with a slip law, and
+        time. Raises RunError where no wall has one.
+        """
+        return records.read_surfaces(self._file(results.SURFACE))
 
     @property
     def snapshots(self) -> dict:

@@ -28,6 +28,7 @@ from yade.wrapper import (
     PlanarNewtonIntegrator,
     PlateLoadEngine,
     Segment,
+    SlipSurfaceMat,
     SlipWeakeningMat,
     Sphere,
 )
@@ -63,7 +64,7 @@ class SceneError(UserError, ValueError):
 _strengths = checks.takes(
     SceneError,
     m=checks.has(
-        "density friction rolling_friction tensile_strength restitution slip_weakening",
+        "density friction rolling_friction tensile_strength restitution slip_weakening slip_law",
         "give a section.Material; a script makes its own by NscdMat(...) or SlipWeakeningMat(...)",
     ),
 )
@@ -92,10 +93,13 @@ def material(m, kind=NscdMat, **others):
 def wall_material(m, **others):
     """The material of a wall, whose strengths alone rule contacts with it; not yet in the scene.
 
-    ``m``: a section.Material; with ``m.slip_weakening`` a SlipWeakeningMat, and bonds with disks of any layer if
-    ``m.bonded``.
+    ``m``: a section.Material; with ``m.slip_weakening`` a SlipWeakeningMat, with ``m.slip_law`` a SlipSurfaceMat, and
+    bonds with disks of any layer if ``m.bonded``.
     """
     options = dict(wall=True, bondsToAll=m.bonded, layer=-1)
+    if m.slip_law is not None:  # which says what friction is
+        law = dict(law=m.slip_law.make(), frictionAngle=math.atan(m.friction), residualFrictionAngle=-1.0)
+        return material(m, SlipSurfaceMat, **{**options, **law, **others})
     weak = m.slip_weakening
     if weak is None:
         return material(m, **{**options, **others})
@@ -126,6 +130,8 @@ def set_strengths(m, present):
     them up by ``ContactDynamicsEngine.updateStrengths()``.
     """
     values = _strengths_of(m)
+    if isinstance(present, SlipSurfaceMat):
+        del values["frictionAngle"], values["residualFrictionAngle"]  # its law's
     if m.slip_weakening is not None and isinstance(present, SlipWeakeningMat):
         values |= _weakened_of(m.slip_weakening)
     for name, value in values.items():

@@ -55,7 +55,7 @@ class Hard:
         return scene.material(m, layer=layer if m.bonded else -2 - layer, **others)
 
     def wall_material(self, m, **others):
-        """The material of a wall; with ``m.slip_weakening`` it loses its strength as disks slip."""
+        """The material of a wall; with ``m.slip_weakening`` or ``m.slip_law`` it loses its strength as disks slip."""
         from . import scene
 
         return scene.wall_material(m, **others)
@@ -169,9 +169,13 @@ class Soft:
         return soft.material(self.equivalent(m), **others)
 
     def wall_material(self, m, **others):
-        """As :meth:`Hard.wall_material`."""
+        """As :meth:`Hard.wall_material`. Raises WorldError for a slip law that heats, which soft contacts do not know."""
         from . import scene
 
+        if m.slip_law is not None:
+            raise WorldError(
+                f"material {m.name}: its slip_law needs rigid contacts: leave it out, or use Contact Dynamics"
+            )
         return scene.wall_material(m, **{**dict(young=self.stiffness, poisson=self.shear_ratio), **others})
 
     def interface(self, lower, upper, m):

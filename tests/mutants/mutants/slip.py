@@ -5,6 +5,8 @@ SLIP = "pkg/contact/slip/"
 ZONE, PROFILE, WATER, FLASH = SLIP + "heated_zone.cpp", SLIP + "profile.cpp", SLIP + "water.hpp", SLIP + "flash_heating.cpp"
 REACTION, MELT, TABLE, MATERIAL = SLIP + "decomposition.cpp", SLIP + "shear_melting.cpp", SLIP + "tabulated.cpp", "pkg/dem/NscdMat.cpp"
 CELLS, GRID = "pkg/dem/SlipSurfaceMat.cpp", "pkg/dem/WallCells.cpp"
+SERIES, PICTURE = "py/nonsmooth/studies/slope/surface_series.py", "py/nonsmooth/figures/slip_surface.py"
+BUILDING, CHECKS = "py/nonsmooth/model/section/building.py", "py/nonsmooth/model/section/checks.py"
 BLOCK, SETS, FIGURE = ("py/nonsmooth/slip/block.py", "py/nonsmooth/slip/parameter_sets.py", "py/nonsmooth/figures/sliding_block.py")
 
 MUTANTS = (
@@ -71,6 +73,11 @@ MUTANTS = (
     mutant("surface-at", GRID, "piece->begin + std::clamp(wayOf(wall, point), Real(0), piece->length)", "std::clamp(wayOf(wall, point), Real(0), piece->length)", "each wall begins the chain", "test_slip_surface.py"),
     mutant("surface-arc", GRID, "arc->radius * (std::atan2(local[1], local[0]) + arc->halfAngle)", "arc->radius * std::atan2(local[1], local[0])", "an arc begins in its middle", "test_slip_surface.py"),
     mutant("surface-impacts", "pkg/dem/seam/ContactSeamScatter.cpp", "0.5 * std::abs(u0.t + u1.t);", "std::abs(u0.t + u1.t);", "slip is twice the way", "test_slip_surface.py"),
+    mutant("surface-rows", SERIES, '"friction": found["friction"]', '"friction": found["slip_m"]', "columns of cells are exchanged", "test_heated_slopes.py"),
+    mutant("surface-hottest", SERIES, ".max(axis=1)", ".min(axis=1)", "the hottest is the coldest", "test_heated_slopes.py"),
+    mutant("surface-picture", PICTURE, "np.cumsum(length)", "np.arange(1.0, count + 1)", "cells are drawn as if they were one metre long", "plain:test_figures_slip_surface.py"),
+    mutant("surface-law-friction", BUILDING, "if abs(raw[key] - friction) > 1e-9:", "if False:", "a wall has another friction than its law", "test_heated_slopes.py"),
+    mutant("surface-law-water", CHECKS, "section.release_distance < x1 - x0", "False", "water goes where a law has its own pressure", "test_heated_slopes.py"),
     # ---- the block
     mutant("block-heat", BLOCK, "strength * path, after", "push * path, after", "heat is what the weight does", "test_slip_block.py", "verify:adiabatic-block"),
     mutant("block-up", BLOCK, "max(0.0, speed + gains * (push - strength))", "speed + gains * (push - strength)", "friction drives a block up the slope", "test_slip_block.py"),

@@ -203,6 +203,30 @@ def angle(mu):
 
 
 DP, ROCK = ("materials", "dp"), ("materials", "rock")
+ZONE = {
+    "thickness": 0.01,
+    "heat_capacity": 2.85e6,
+    "thermal_diffusivity": 1.45e-7,
+    "hydraulic_diffusivity": 7e-8,
+    "pressurization_coefficient": 6.7e4,
+    "weakening_temperature": 900.0,
+    "weakened_friction": 0.1,
+    "asperity_slip": 1e-5,
+    "contact_strength": 3e9,
+}
+
+
+def heated(friction=0.4, **law):
+    """The wall DP has a slip law."""
+    law = {
+        "bonded": False,
+        "friction": 0.6 if law.get("set") == "marble" else friction,
+        "rolling_friction": 0.1,
+        "slip_law": law,
+    }
+    return {DP: law, ("water", "release_distance"): 1e5}
+
+
 LIKE_ROCK = {"tensile_strength": 12e3, "friction": 0.4, "rolling_friction": 0.1, "density": 2000.0}
 JOINT = {"friction": 0.15, "rolling_friction": 0.0, "bonded": False}
 BETWEEN = {("materials", "joint"): JOINT, ("interfaces",): [{"between": ["L1", "L2"], "material": "joint"}]}
@@ -532,6 +556,18 @@ WHERE = {
         {(*DP, "slip_weakening", "tensile_strength"): 9.0},
         lambda m: m.wall("DP").weakenedTensileStrength,
         9.0,
+    ),
+    # test_heated_slopes follows them further
+    ("materials", "*", "slip_law", "set"): (heated(set="marble"), lambda m: m.wall("DP").law[0], ("tabulated",)),
+    ("materials", "*", "slip_law", "law"): (
+        heated(law=["thermal_pressurization", "flash_heating"], parameters=ZONE),
+        lambda m: m.wall("DP").law[0],
+        ("thermal_pressurization", "flash_heating"),
+    ),
+    ("materials", "*", "slip_law", "parameters", "*"): (
+        heated(set="vaiont", parameters={"thickness": 0.002}),
+        lambda m: m.wall("DP").law[1]["thickness"],
+        [0.002],
     ),
     ("materials", "*", "envelope", "cohesion"): ({(*ROCK, "envelope", "cohesion"): 4e3}, passive, (4e3, 35.0)),
     ("materials", "*", "envelope", "friction_deg"): (

@@ -6,6 +6,7 @@ import copy
 import dataclasses
 from types import MappingProxyType
 
+from ...slip import laws as slip_laws
 from .. import geometry, rocks, roles
 from . import (
     checks as section_checks,
@@ -29,6 +30,7 @@ from .parts import (
     Settle,
     SlipWeakening,
     Stages,
+    SurfaceLaw,
     Water,
     points_of,
 )
@@ -102,6 +104,7 @@ def build(document, source: str) -> Section:
             release = section_defaults.release_distance(section.area)
             section = dataclasses.replace(section, water=dataclasses.replace(section.water, release_distance=release))
         section_checks.check_release(section, document)
+        section_checks.check_pressures(section, document)
     section = dataclasses.replace(section, erosion=erosion.windows(section, document))
     section = section_values.keep(section, given)
     return section.with_disks(size["count"]) if "count" in size else section
@@ -146,6 +149,35 @@ def _floats(mapping) -> dict:
     return {k: float(v) for k, v in mapping.items()}
 
 
+def _surface_law(raw, document, keys) -> SurfaceLaw:
+    """The SurfaceLaw of a material's data, which get the friction that it has before slip."""
+    asked = raw["slip_law"]
+    if "set" in asked and "law" in asked:
+        document.refuse((*keys, "slip_law"), "set and law are both there", "leave one out")
+    if "slip_weakening" in raw:
+        document.refuse((*keys, "slip_law"), "slip_weakening is there too", "leave one of them out")
+    given = {
+        k: tuple(map(float, v)) if isinstance(v, list) else float(v) for k, v in asked.get("parameters", {}).items()
+    }
+    law = asked.get("law", ())
+    laws = (law,) if isinstance(law, str) else tuple(law)
+    try:
+        if laws and "friction" not in given and any(one.key == "friction" for one in slip_laws.parameters(*laws)):
+            given["friction"] = float(raw["friction"])
+        made = SurfaceLaw(laws, asked.get("set"), tuple(given.items()))
+        friction = made.make().friction()
+    except slip_laws.SlipError as error:
+        document.refuse((*keys, "slip_law"), str(error), "scripts/sliding_block.py --list tells laws and sets")
+    for key in ("friction", "residual_friction"):
+        if abs(raw[key] - friction) > 1e-9:
+            document.refuse(
+                (*keys, key),
+                f"its slip law has the friction {friction:g} before slip",
+                "give that, or leave it out" if key == "residual_friction" else f"give {friction:g}",
+            )
+    return made
+
+
 def material_from(name: str, raw: dict, document, keys=()) -> Material:
     """A Material from its data, which meet the schema; one that is asked for by cohesion and angle of friction has
     contact parameters of the table (:mod:`.rocks`).
@@ -159,6 +191,8 @@ def material_from(name: str, raw: dict, document, keys=()) -> Material:
         raw["bond_ellipse"] = tuple(map(float, raw["bond_ellipse"]))
     if "slip_weakening" in raw:
         raw["slip_weakening"] = SlipWeakening(**raw["slip_weakening"])
+    if "slip_law" in raw:
+        raw["slip_law"] = _surface_law(raw, document, keys)
     if "envelope" in raw:
         raw["envelope"] = Envelope(**_floats(raw["envelope"]))
     return Material(

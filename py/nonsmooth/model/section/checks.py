@@ -168,6 +168,22 @@ def _rock_notes(section):
             )
 
 
+def check_pressures(section: Section, document) -> None:
+    """Refuses water that leaves a disk after a way where a slip law has a pore pressure of its own: the weight that it
+    gives back would come in the middle of weakening.
+    """
+    x0, _, x1, _ = section.bounds
+    for wall in section.walls:
+        law = section.materials[wall.material].slip_law
+        if law is not None and "thermal_pressurization" in law.make().names and section.release_distance < x1 - x0:
+            document.refuse(
+                ("water", "release_distance"),
+                f"{section.release_distance:g} m, and the slip law of the wall {wall.name} has a pore pressure of its own, "
+                "over that of the water",
+                "give 1.0e+5, farther than any disk goes, so that the water stays",
+            )
+
+
 def _check_names(section, document) -> None:
     for kind, items in (("walls", section.walls), ("layers", section.layers)):
         names = [item.name for item in items]
@@ -235,11 +251,19 @@ def _check_materials(section, document) -> None:
                 f"no density, and layer {layer.name} is made of it",
                 "give density [kg/m³]",
             )
-        if material.slip_weakening:
+        for key in ("slip_weakening", "slip_law"):
+            if getattr(material, key):
+                document.refuse(
+                    ("materials", material.name, key),
+                    f"layer {layer.name} is made of this material",
+                    f"give {key} to materials of walls only",
+                )
+    for interface in section.interfaces:
+        if section.materials[interface.material].slip_law:
             document.refuse(
-                ("materials", material.name, "slip_weakening"),
-                f"layer {layer.name} is made of this material",
-                "give slip_weakening to materials of walls only",
+                ("materials", interface.material, "slip_law"),
+                f"the interface {interface.name} has this material",
+                "give slip_law to materials of walls only",
             )
 
 

@@ -105,7 +105,16 @@ def plain(section) -> dict:
 def material(m) -> dict:
     """The keys and values of a Material in a section file."""
     found = {k: v for k, v in dataclasses.asdict(m).items() if k != "name" and v is not None}
+    if m.slip_law is not None:
+        found["slip_law"] = surface_law(m.slip_law)
     return found | {"bond_ellipse": list(m.bond_ellipse)}
+
+
+def surface_law(law) -> dict:
+    """The keys and values of a SurfaceLaw in a section file."""
+    found = {"set": law.set} if law.set is not None else {"law": list(law.law)}
+    values = {key: list(value) if isinstance(value, tuple) else value for key, value in law.parameters}
+    return found | ({"parameters": values} if values else {})
 
 
 def write(section, path):

@@ -11,6 +11,7 @@ from dataclasses import dataclass
 import numpy as np
 from shapely.geometry import Polygon
 
+from ...slip import laws as slip_laws, parameter_sets
 from .. import geometry
 
 __all__ = [
@@ -24,6 +25,7 @@ __all__ = [
     "Settle",
     "SlipWeakening",
     "Stages",
+    "SurfaceLaw",
     "Wall",
     "Water",
     "normal_of",
@@ -42,6 +44,25 @@ class SlipWeakening:
     critical_slip: float
     friction: float = 0.0
     tensile_strength: float = 0.0
+
+
+@dataclass(frozen=True)
+class SurfaceLaw:
+    """Law of a wall whose friction is found in cells along it, as disks slide and it heats (paper, section 4.3).
+
+    `law`: names of laws that share a zone, none with `set`, the name of a shipped set of parameters; `parameters`:
+    (key, number or tuple of numbers), of the laws, or those of the set that differ.
+    """
+
+    law: tuple[str, ...] = ()
+    set: str | None = None
+    parameters: tuple[tuple[str, float | tuple[float, ...]], ...] = ()
+
+    def make(self) -> slip_laws.SlipLaw:
+        """The law. Raises SlipError for names, keys and values that do not fit."""
+        if self.set is not None:
+            return parameter_sets.law(self.set, **dict(self.parameters))
+        return slip_laws.SlipLaw(self.law, **dict(self.parameters))
 
 
 @dataclass(frozen=True)
@@ -72,6 +93,7 @@ class Material:
     density: float | None = None
     bonded: bool = True
     slip_weakening: SlipWeakening | None = None
+    slip_law: SurfaceLaw | None = None
     envelope: Envelope | None = None
 
     @property

@@ -156,6 +156,12 @@ def scaled(section: Section, factor: float) -> Section:
     """
     remedy = f"give a factor from {FACTORS[0]:g} to {FACTORS[1]:g}"
     checks.number(f"{section.source}: factor", factor, SectionError, remedy, least=FACTORS[0], most=FACTORS[1])
+    for name, material in section.materials.items():
+        if material.slip_law is not None:
+            raise SectionError(
+                f"{section.source}: material {name}: a slip law that heats has no similar one, as heat spreads at its own "
+                "rate; leave --size out, or the slip_law"
+            )
     made = _rebuilt(section, _scaled(section_data.plain(section), factor))
     original, whole = (section.like[0], factor * section.like[1]) if section.like else (section, factor)
     disks = section.disks.scaled(factor)  # with the count that was asked for

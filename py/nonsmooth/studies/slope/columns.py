@@ -2,7 +2,17 @@
 
 from ...records.columns import BONDS, STEP, TIME, Column, count, declared
 
-__all__ = ["COLUMNS", "ERODING", "FURTHER", "LEDGER_COLUMNS", "OF_SHAKING", "PERMANENT", "RELEASED", "WALL_COLUMNS"]
+__all__ = [
+    "COLUMNS",
+    "ERODING",
+    "FURTHER",
+    "LEDGER_COLUMNS",
+    "OF_SHAKING",
+    "PERMANENT",
+    "RELEASED",
+    "SURFACE_COLUMNS",
+    "WALL_COLUMNS",
+]
 
 #: Of ``series.csv``: {name: Column}. Where slip surfaces lie one above another, each has some of them for itself, see
 #: :data:`.records.columns.OWN`.
@@ -137,6 +147,28 @@ LEDGER_COLUMNS = declared(
     Column("vy_m_per_s", "m/s", "the same, y"),
     Column("energy_kinetic_J", "J/m", "its kinetic energy, with that of its rotation"),
     Column("energy_potential_J", "J/m", "its potential energy, 0 at the origin"),
+)
+
+
+#: Of ``slip_surface.csv``, a row for each cell of a wall with a slip law, and time: {name: Column}. Empty where the law
+#: has no such number.
+SURFACE_COLUMNS = declared(
+    STEP,
+    TIME,
+    Column("wall", "-", "name of the wall", str),
+    count("cell", "number of the cell along the wall"),
+    Column("x_m", "m", "its middle, x"),
+    Column("y_m", "m", "the same, y"),
+    Column("length_m", "m", "its length"),
+    Column("slip_m", "m", "what has slid on it, since the slope settled"),
+    Column("slip_rate_m_per_s", "m/s", "how fast, in the last step"),
+    Column("normal_stress_Pa", "Pa", "normal stress that disks bear there, a mean over the last slip"),
+    Column("friction", "-", "friction of contacts there in the next step"),
+    Column("temperature_degC", "°C", "mean temperature of the zone", optional=True),
+    Column("hottest_degC", "°C", "highest temperature across the zone", optional=True),
+    Column("pressure_Pa", "Pa", "mean excess pore pressure of the zone", optional=True),
+    Column("reacted", "-", "share that has reacted, of the zone", optional=True),
+    Column("melt_m", "m", "thickness of the layer of melt", optional=True),
 )
 
 

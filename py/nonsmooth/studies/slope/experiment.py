@@ -86,6 +86,7 @@ class Experiment(driver.Course):
             section_data.write(kept, self.folder / section_data.FILE)
         self.walls = self.monitor.open_walls(self.folder / "walls.csv", mark and mark["walls"])
         self.eroding = self.monitor.open_ledger(self.folder / results.LEDGER, mark and mark["eroded"])
+        self.surfaces = self.monitor.open_surfaces(self.folder / results.SURFACE, mark and mark["slip_surface"])
         if state is None:
             self.frames = frames.Frames(self.folder, self.section)
         else:
@@ -94,7 +95,7 @@ class Experiment(driver.Course):
                 self.monitor.note_begin(self.folder / results.BEGIN)
             rows = records.read_series(self.folder / "series.csv")
             self.frames = frames.Frames(self.folder, self.section, rows, asdict(state))
-        super().__init__(self.series, self.walls.file, *([self.eroding.file] if self.eroding else []))
+        super().__init__(self.series, self.walls.file, *(one.file for one in (self.eroding, self.surfaces) if one))
         self.newton = next(e for e in O.engines if isinstance(e, NewtonIntegrator))
         self.damping = (self.newton.damping, self.newton.damping if damping_moving is None else damping_moving)
         if state is None:
@@ -335,6 +336,7 @@ class Experiment(driver.Course):
                     "series": self.series.mark(),
                     "wall_series": self.walls.file.mark(),
                     "eroded": self.eroding and self.eroding.file.mark(),
+                    "surfaces": self.surfaces and self.surfaces.file.mark(),
                     **({"release": self.release.content()} if self.release is not None else {}),
                 },
             )
@@ -425,6 +427,7 @@ def resume(section, folder, progress=None):
     try:
         state, mark = State(**content["state"]), {"series": content["series"], "walls": content["wall_series"]}
         mark["eroded"] = content.get("eroded")  # none where nothing is taken out
+        mark["slip_surface"] = content.get("surfaces")  # none where no wall has a slip law
     except (KeyError, TypeError) as error:
         raise ExperimentError(
             f"{folder}: the checkpoint cannot be read ({error}); remove {folder}/checkpoint and run without --resume"

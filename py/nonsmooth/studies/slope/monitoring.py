@@ -20,6 +20,7 @@ from . import slope
 from .columns import COLUMNS, ERODING, OF_SHAKING, PERMANENT, RELEASED
 from .eroding import Eroding
 from .error import ExperimentError
+from .surface_series import SurfaceSeries
 from .wall_series import WallSeries
 
 __all__ = ["OF_SOLVER", "SlopeMonitor"]
@@ -47,7 +48,8 @@ class SlopeMonitor:
 
     ``field``: the section's pore pressures in the time since t0, a MeshField, or None;
     ``walls``: its WallSeries, once :meth:`open_walls` has been called; ``eroding``: its Eroding, once
-    :meth:`open_ledger` has, where the section has windows that take disks out; ``columns``: those of the rows, {name:
+    :meth:`open_ledger` has, where the section has windows that take disks out; ``surfaces``: its SurfaceSeries, once
+    :meth:`open_surfaces` has, where walls have slip laws; ``columns``: those of the rows, {name:
     Column}; ``hard``: whether its disks are rigid; ``by_dilatancy``: whether local dilatancy releases its water;
     ``mass``: which disks are of the mass, bool (count,), None: all. ``disks`` and ``t`` are the table of
     :func:`.tables.bodies`, of those that are there.
@@ -71,7 +73,7 @@ class SlopeMonitor:
             name: COLUMNS[records.stem(name)]._replace(name=name) for name in own
         }
         self.columns |= ERODING if self.section.erosion else {}
-        self.eroding = None
+        self.eroding = self.surfaces = None
         self._begin = self._surfaces = None  # the Snapshot of t0, and its slip surfaces
         if self.section.shaking is not None:
             names = [records.column(PERMANENT.name, name) for name, _ in self.section.slip_surfaces]
@@ -93,6 +95,14 @@ class SlopeMonitor:
         if self.section.erosion:
             self.eroding = Eroding(self.slope, self.layers, self.mass, path, mark)
         return self.eroding
+
+    def open_surfaces(self, path, mark=None):
+        """Opens the file of cells along walls with slip laws, where there are some; returns its SurfaceSeries, or
+        None.
+        """
+        if any(self.section.materials[wall.material].slip_law is not None for wall in self.section.walls):
+            self.surfaces = SurfaceSeries(self.slope, path, mark)
+        return self.surfaces
 
     def take_out(self, due, disks):
         """Lets the windows that are ``due`` take disks out, see :meth:`.eroding.Eroding.take`; returns by how much the
@@ -234,6 +244,8 @@ class SlopeMonitor:
         e, water, section = self.slope.solver, self.slope.water, self.section
         self.walls.there = self._there(np.arange(self.slope.count), disks)
         forces, of_surfaces = self.walls.take()
+        if self.surfaces is not None:
+            self.surfaces.take()
         dp, fb, ss = forces["slip"], forces["backstop"], forces["ground"]
         total = water.totalForce if water else (0.0, 0.0, 0.0)
         normal = (section.water_table or section).normal

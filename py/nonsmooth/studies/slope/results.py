@@ -52,10 +52,13 @@ HEAD = b"step,time_s,"  # begins the series of every run
 # what a run leaves besides its series and its checkpoint
 INPUTS = (section_shaking.FILE, of_section.FILE)  # that its section.yaml names
 LEDGER = "eroded.csv"  # of disks that were taken out
+SURFACE = "slip_surface.csv"  # of cells along walls with slip laws
 SUMMARY, BREAKS, BEGIN, END = "summary.json", "breaks.csv", "t0.npz", "end.npz"
 SNAPSHOTS, PARAVIEW = frames.FOLDER, "vtk"
 #: Names of the figures in the order in which they are drawn; of their files with ".png".
-PICTURES = tuple("force_chains forces snapshots weakening toe deposit erosion shaking water energy solver".split())
+PICTURES = tuple(
+    "force_chains forces snapshots weakening slip_surface toe deposit erosion shaking water energy solver".split()
+)
 FIGURES = (*(f"{name}.png" for name in PICTURES), "avalanche.mp4")
 
 
@@ -67,7 +70,7 @@ def forget(folder):
     """
     folder = Path(folder)
     remove(
-        [folder / name for name in (SUMMARY, BREAKS, LEDGER, BEGIN, END, *INPUTS, *FIGURES)]
+        [folder / name for name in (SUMMARY, BREAKS, LEDGER, SURFACE, BEGIN, END, *INPUTS, *FIGURES)]
         + _written(folder / SNAPSHOTS, r"\d{8,}\.npz")
         + _written(folder / PARAVIEW, r"(disks-\w+|contacts-\w+|walls|breaks)\.vtu|avalanche\.pvd"),
         EARLIER,
@@ -95,7 +98,7 @@ def foreign(folder):
         pass
     if (folder / "key").exists():  # kept_runs has begun one
         return None
-    names = (SERIES, WALLS, SECTION, *INPUTS, SUMMARY, BREAKS, LEDGER, BEGIN, END, *FIGURES, "checkpoint")
+    names = (SERIES, WALLS, SECTION, *INPUTS, SUMMARY, BREAKS, LEDGER, SURFACE, BEGIN, END, *FIGURES, "checkpoint")
     found = [folder / name for name in names if (folder / name).exists()]
     found += _written(folder / SNAPSHOTS, r"\d{8,}\.npz") + _written(folder / PARAVIEW, r".*\.(vtu|pvd)")
     return found[0].relative_to(folder).as_posix() if found else None

@@ -130,6 +130,8 @@ class Drawing:
             return self._water(path)
         if name == "weakening":
             return self._weakening(path)
+        if name == "slip_surface":
+            return self._slip_surface(path)
         if name == "toe":
             return self._toe(path)
         if name == "shaking":
@@ -152,6 +154,13 @@ class Drawing:
         times = own[np.unique(np.linspace(0, len(own) - 1, min(PANELS, len(own))).round().astype(int))]
         flow = section_seepage.flow(self.section, self.field)
         return figures.pore_pressures(self.field, list(times), self.section, path, flow=flow)
+
+    def _slip_surface(self, path):
+        """Nothing where no wall has a slip law, or nothing has slid on one."""
+        if not any(self.section.materials[wall.material].slip_law is not None for wall in self.section.walls):
+            return None
+        cells = records.read_surfaces(self.folder / results.SURFACE)
+        return figures.slip_surface(cells, path, times=self.times) if np.any(cells["slip_m"] > 0) else None
 
     def _toe(self, path):
         """Nothing where there is no backstop, where the toe has few disks, and where the run has no snapshots of its

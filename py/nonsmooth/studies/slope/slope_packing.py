@@ -117,7 +117,7 @@ def _smooth(section):
         0.0,
     )
     materials = {
-        name: dataclasses.replace(m, bonded=False, slip_weakening=None, **nothing)
+        name: dataclasses.replace(m, bonded=False, slip_weakening=None, slip_law=None, **nothing)
         for name, m in section.materials.items()
     }
     numerics = dataclasses.replace(section.numerics, tolerance=TOLERANCE, max_iterations=MAX_ITERATIONS)

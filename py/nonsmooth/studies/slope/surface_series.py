@@ -1,0 +1,66 @@
+"""What slip laws have found in the cells along the walls of a slope: a row for each cell and time in
+``slip_surface.csv``.
+"""
+
+from __future__ import annotations
+
+import numpy as np
+
+from yade import O
+
+from ... import records
+from ...slip import surface
+from .columns import SURFACE_COLUMNS
+
+__all__ = ["SurfaceSeries"]
+
+
+class SurfaceSeries:
+    """Of a built :class:`~nonsmooth.studies.slope.slope.Slope`, its walls with slip laws; ``path``: the file; ``mark``:
+    of a checkpoint.
+    """
+
+    def __init__(self, built, path, mark=None):
+        laws = {w.name: built.section.materials[w.material].slip_law for w in built.section.walls}
+        self._walls = {name: (built.wall_material(name), law.make()) for name, law in laws.items() if law is not None}
+        self.file = records.SeriesWriter(path, SURFACE_COLUMNS, resume_from=mark, overwrite=True)
+
+    def take(self):
+        """Writes the rows of the present step."""
+        for name, (material, law) in self._walls.items():
+            found = surface.cells(material)
+            middle = found["ends_m"].mean(axis=1)
+            of_cells = {
+                "cell": np.arange(len(middle)),
+                "x_m": middle[:, 0],
+                "y_m": middle[:, 1],
+                "length_m": found["length_m"],
+                "slip_m": found["slip_m"],
+                "slip_rate_m_per_s": found["slip_rate_m_per_s"],
+                "normal_stress_Pa": found["normal_stress_Pa"],
+                "friction": found["friction"],
+                **_heated(found, law),
+            }
+            names = list(of_cells)
+            rows = zip(
+                *(of_cells[key].tolist() if of_cells[key] is not None else len(middle) * [None] for key in names)
+            )
+            self.file.write(
+                *({"step": O.iter, "time_s": O.time, "wall": name, **dict(zip(names, values))} for values in rows)
+            )
+
+
+def _heated(found, law):
+    """Columns of a zone that heats; None for what the law has not."""
+
+    def mean(key):
+        return law.zone_mean(np.atleast_2d(found[key].reshape(len(found["slip_m"]), -1))) if key in found else None
+
+    hottest = found["temperature"].reshape(len(found["slip_m"]), -1).max(axis=1) if "temperature" in found else None
+    return {
+        "temperature_degC": mean("temperature"),
+        "hottest_degC": hottest,
+        "pressure_Pa": mean("pressure"),
+        "reacted": mean("reacted"),
+        "melt_m": found.get("melt_thickness"),
+    }

@@ -1,0 +1,147 @@
+"""Slopes on walls with slip laws: their heat is what sliding loses, a run goes on from a checkpoint with the same
+bytes, what is written and drawn, and what is refused.
+"""
+
+import numpy as np
+import pytest
+from yade.nonsmooth import experiment, runs, section, similar, worlds
+from yade.nonsmooth.model.section import data as section_data
+from yade.nonsmooth.studies.safety.asked import Asked, SafetyError
+
+pytestmark = pytest.mark.usefixtures("empty")
+ZONE = {
+    "thickness": 0.01,
+    "heat_capacity": 2.85e6,
+    "thermal_diffusivity": 1.45e-7,
+    "hydraulic_diffusivity": 7e-8,
+    "pressurization_coefficient": 6.7e4,
+}
+
+
+def heated(disks=150, release=1e5, surface=None, **slip_law):
+    """The shipped slope on a circle, whose surface is pressurized as it slides; ``surface``: keys of its material."""
+    made = section_data.plain(section.load("circle").with_disks(disks))
+    made["materials"]["surface"] = {"bonded": False, "friction": 0.6, "rolling_friction": 0.1} | (
+        surface or {"slip_law": slip_law or {"law": "thermal_pressurization", "parameters": ZONE}}
+    )
+    made["name"] = "heated"
+    if release is None:
+        del made["water"]
+    else:
+        made["water"] |= {"release_distance": release}
+    return made
+
+
+@pytest.fixture(scope="module")
+def slid(tmp_path_factory):
+    """A run to its end: (folder, the wall's material, summary)."""
+    folder = tmp_path_factory.mktemp("heated") / "run"
+    course = experiment.begin(section.of(heated()), folder)
+    course.run()
+    told = course.summarise()
+    return folder, course.slope.wall_material("circle").heat, told
+
+
+def test_the_slope_fails_and_its_surface_is_heated_by_what_sliding_loses(slid):
+    folder, heat, told = slid
+    run = runs.open_run(folder)
+    assert told["times_s"]["t2"] is not None, told["verdict_says"]
+    lost = told["sliding_on_walls_J_per_m"]["circle"]
+    assert heat == pytest.approx(lost, rel=1e-10) and heat > 1e5  # sums of the same numbers in another order
+    cells = run.slip_surface
+    times, count = np.unique(cells["time_s"]), cells["cell"].max() + 1
+    assert len(cells["step"]) == len(times) * count and set(cells["wall"]) == {"circle"}
+    assert np.array_equal(times, run.series["time_s"])
+    # along the circle, from the crown's end on
+    of_first = {name: values[:count] for name, values in cells.items() if name != "wall"}
+    steps = np.hypot(np.diff(of_first["x_m"]), np.diff(of_first["y_m"]))
+    assert steps == pytest.approx(np.full(count - 1, of_first["length_m"][0]), rel=0.02)
+    # nothing had slid before gravity acted; most strength is gone in the end where the mass went, and only there
+    end = {name: values[-count:] for name, values in cells.items() if name != "wall"}
+    far = end["slip_m"] > 10
+    assert far.any() and end["friction"][far].max() < 0.1 * 0.6 and end["hottest_degC"][far].min() > 20
+    still = end["slip_m"] == 0
+    assert end["friction"][still] == pytest.approx(0.6) and end["temperature_degC"][still] == pytest.approx(15)
+    assert np.all(end["hottest_degC"] >= end["temperature_degC"]) and np.isnan(cells["melt_m"]).all()
+    assert np.all(end["pressure_Pa"] >= 0) and run.frame("slip_surface").shape == (len(cells["step"]), 16)
+    assert len(run.figure("slip_surface").axes) == 4  # two panels with their scales
+
+
+def test_a_run_goes_on_from_its_checkpoint_with_the_same_bytes(slid, tmp_path):
+    folder, _, told = slid
+    moving = told["times_s"]["t2"] + 0.5
+    course = experiment.begin(section.of(heated()), tmp_path / "run")
+    course.run(end=moving)
+    course.checkpoint()
+    experiment.resume(section.of(heated()), tmp_path / "run").run()
+    for name in ("slip_surface.csv", "series.csv"):
+        assert (tmp_path / "run" / name).read_bytes() == (folder / name).read_bytes(), name
+
+
+def test_other_walls_have_no_such_file(tmp_path):
+    run = experiment.begin(section.of(heated(surface={"rolling_friction": 0.1})), tmp_path / "run")
+    run.run(end=0.1)
+    assert not (tmp_path / "run" / "slip_surface.csv").exists()
+    with pytest.raises(runs.RunError, match="slip_surface.csv"):
+        _ = runs.open_run(tmp_path / "run").slip_surface
+
+
+@pytest.mark.parametrize(
+    "made, words",
+    [
+        (lambda: heated(set="vaiont", law="tabulated"), "set and law are both there"),
+        (lambda: heated(set="vaiont"), "friction 0.4 before slip; give 0.4"),
+        (lambda: heated(set="vajont"), "'vajont': it must be one of vaiont"),
+        (
+            lambda: heated(law="thermal_pressurization", parameters={"thickness": 1.0}),
+            "pressurization_coefficient .* is missing",
+        ),
+        (lambda: heated(law="melting"), "'melting'"),
+        (lambda: heated(law="thermal_pressurization", parameters=ZONE | {"thickness": -1.0}), "thickness = -1"),
+        (lambda: heated(release=5.0), "release_distance: 5 m, and the slip law of the wall circle"),
+        (
+            lambda: heated(
+                surface={
+                    "slip_law": {"law": "thermal_pressurization", "parameters": ZONE},
+                    "slip_weakening": {"law": "step", "critical_slip": 1.0},
+                }
+            ),
+            "slip_weakening is there too",
+        ),
+        (
+            lambda: heated(
+                surface={"slip_law": {"law": "thermal_pressurization", "parameters": ZONE}, "residual_friction": 0.1}
+            ),
+            "residual_friction",
+        ),
+    ],
+)
+def test_what_makes_no_sense_is_refused_before_anything_is_packed(made, words):
+    with pytest.raises(section.SectionError, match=words):
+        section.of(made())
+
+
+def test_layers_and_interfaces_have_no_cells():
+    law = {"slip_law": {"law": "thermal_pressurization", "parameters": ZONE | {"friction": 0.4}}}
+    made = heated()
+    made["materials"]["soil"] |= law
+    made["materials"]["soil"] |= {"friction": 0.4, "residual_friction": 0.4}
+    with pytest.raises(section.SectionError, match="give slip_law to materials of walls only"):
+        section.of(made)
+
+
+def test_soft_contacts_searches_and_other_sizes_are_refused(tmp_path):
+    made = section.of(heated())
+    with pytest.raises(worlds.WorldError, match="slip_law needs rigid contacts"):
+        worlds.Soft(1e8, 1.0).wall_material(made.materials["surface"])
+    with pytest.raises(SafetyError, match="is that of a slip law, which is not divided"):
+        Asked(made)
+    with pytest.raises(section.SectionError, match="no similar one"):
+        similar.scaled(made, 2.0)
+    assert similar.mirrored(similar.mirrored(made)).materials == made.materials
+
+
+def test_it_is_written_down_as_it_is(tmp_path):
+    made = section.of(heated(set="vaiont", parameters={"friction": 0.6, "thickness": 0.0014}))
+    section_data.write(made, tmp_path / "section.yaml")
+    assert section.load(str(tmp_path / "section.yaml")).materials == made.materials
