@@ -7,6 +7,11 @@ STYLE = "py/nonsmooth/figures/style.py"
 
 SAME = {
     (
+        "py/nonsmooth/studies/comparison/biaxials.py",
+        'SOURCE, DISKS = "wwr", 1000',
+        'SOURCE, DISKS = "wwr", 1001',
+    ): "a choice: how many disks a sample has that is compared",
+    (
         "pkg/dem/space/FaceGeom.cpp",
         "known && at.feature == space::Nearest::Face && known->normal.dot(normal) < 0",
         "known && at.feature == space::Nearest::Face && known->normal.dot(normal) <= 0",

@@ -164,7 +164,7 @@ def test_what_a_run_has_not_is_told(whole, tmp_path):
     run = runs.open_run(whole.folder)
     with pytest.raises(runs.RunError, match="no figure is called 'chains'; give one of force_chains"):
         run.figure("chains")
-    with pytest.raises(runs.RunError, match="give series, walls, breaks or eroded"):
+    with pytest.raises(runs.RunError, match="give series, walls, breaks, eroded or slip_surface"):
         run.frame("serie")
 
 

@@ -95,8 +95,8 @@ def test_a_value_gives_what_a_file_with_it_gives(change, base, tmp_path):
         assert same(section.of(run.arguments["data"]), section.of(section_data.plain(wanted)))
     if ("disks", "count") not in change:
         assert same(hill.with_disks(400).with_values(values), wanted.with_disks(400))
-    if base["disks"] == BASE["disks"]:
-        return
+    if base["disks"] == BASE["disks"] or any(m.slip_law is not None for m in made.materials.values()):
+        return  # what heats has no similar slope, which test_heated_slopes holds
     # four times as large: powers of two, so to the last bit
     large = {words: similar.original_value(words, value, 1 / 4) for words, value in values.items()}
     if "stretch" not in change.get(("shaking",), {"stretch"}):  # a record that is there already keeps its proportion
