@@ -172,6 +172,9 @@ shared_ptr<NscdPhys> Ip2_NscdMat_NscdMat_NscdPhys::make(
 			const auto phys    = boost::make_shared<SlipSurfacePhys>();
 			phys->wallMaterial = surface;
 			phys->wall         = id;
+			if (const auto* geom = dynamic_cast<const ScGeom*>(
+			            interaction.geom.get())) // strength has no joints
+				phys->cell = surface->cellAt(*Body::byId(id), geom->contactPoint);
 			return phys;
 		}
 	if (!weak && (law || (!weak1 && !weak2))) {

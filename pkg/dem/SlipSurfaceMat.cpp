@@ -129,6 +129,7 @@ void SlipSurfaceMat::validate() const
 	        "that of its law before slip: leave it out, and give the law another friction");
 	require(residualFrictionAngle < 0, "residualFrictionAngle", residualFrictionAngle,
 	        "negative, since the law alone says what friction is");
+	require(wall, "wall", wall, "True: the law is of the wall alone");
 	require(cellLength >= 0 && nscd::isNumber(cellLength), "cellLength", cellLength, "0 or more, and finite [m]");
 	require(averagingSlip >= 0 && nscd::isNumber(averagingSlip), "averagingSlip", averagingSlip,
 	        "0 or more, and finite [m]");
@@ -137,14 +138,22 @@ void SlipSurfaceMat::validate() const
 void SlipSurfaceMat::open(const Scene& scene, Real h)
 {
 	validate();
+	if (geometry.count() > 0 && home.lock() != scene.bodies) forgetAll(); // used again in another scene
+	home = scene.bodies;
 	if (!(cellLength > 0)) cellLength = cellDiameters * meanDiameter(scene);
+	const bool isNew = geometry.count() == 0, saved = !slip.empty();
+	if (!isNew && cellLength != cutLength)
+		nscd::fail(
+		        getClassName() + " '" + label + "': cellLength = " + nscd::number(cellLength)
+		        + ": its cells have been cut, " + nscd::number(cutLength)
+		        + " m long; set it before the first step");
 	nscd::WallCells now(scene, *this, cellLength);
-	const bool      isNew = geometry.count() == 0, saved = !slip.empty();
-	if (!isNew && !(now == geometry))
+	if (!isNew && !now.isOfSameWalls(geometry))
 		nscd::fail(
 		        "the walls of " + getClassName() + " '" + label
-		        + "' are not those that its cells were cut along: give further walls a material of their own");
+		        + "' are not those that its cells were cut along, since some came or went: give further walls a material of their own, and keep those that are there");
 	if (!isNew) return;
+	cutLength = cellLength;
 	if (saved && slip.size() != now.count())
 		nscd::fail(
 		        getClassName() + " '" + label + "' was saved with " + std::to_string(slip.size())
@@ -164,6 +173,14 @@ void SlipSurfaceMat::open(const Scene& scene, Real h)
 	} else
 		begin();
 	findStrengths(h);
+}
+
+void SlipSurfaceMat::forgetAll()
+{
+	geometry = {};
+	for (auto* column : { &slip, &slipRate, &normalStress, &friction, &lawState })
+		column->clear();
+	heat = 0;
 }
 
 void SlipSurfaceMat::findStrengths(Real h)

@@ -59,7 +59,8 @@ public:
 	YADE_CLASS_BASE_DOC_ATTRS_CTOR_PY(SlipSurfaceMat,NscdMat,
 R"""(Material of a wall of :yref:`Segments<Segment>` or :yref:`Arcs<Arc>` whose friction a slip law finds in cells along the wall, from what disks have slipped, how fast,
 and how hot it has become there (Taboada and Estrada 2009, section 4.3): ``SlipSurfaceMat(law=nonsmooth.slip.parameter_sets.law('vaiont'), …)``. The friction angle is that of the law before slip.
-Cells are cut in the first step of :yref:`ContactDynamicsEngine`; the heat that they get is what sliding loses on the wall. See ``yade.nonsmooth.slip.surface``. Raises ValueError for a law that does not fit.)""",
+Cells are cut in the first step of :yref:`ContactDynamicsEngine`; the heat that they get is what sliding loses on the wall. Contacts with a wall that gets this material later take it up by
+:yref:`ContactDynamicsEngine.updateStrengths`. See ``yade.nonsmooth.slip.surface``. Raises ValueError for a law that does not fit.)""",
 		((vector<string>,lawNames,,(Attr::readonly|Attr::hidden),"Names of the law's parts."))
 		((vector<string>,lawKeys,,(Attr::readonly|Attr::hidden),"Keys of its parameters."))
 		((vector<vector<Real>>,lawValues,,(Attr::readonly|Attr::hidden),"Their values."))
@@ -87,13 +88,15 @@ Cells are cut in the first step of :yref:`ContactDynamicsEngine`; the heat that 
 private:
 	void makeLaw();
 	void begin();
+	void forgetAll();
 	void findStrengths(Real h);
 
 	std::shared_ptr<nonsmooth::contact::slip::Law> surfaceLaw;
 	nonsmooth::contact::slip::Cells                cells; // what the attributes say, where the law wants it
 	nscd::WallCells                                geometry;
-	std::vector<Real> pressedOf, weightOf, speedOf, meanSpeedOf, lostOf; // sums of the step, by cell
-	Real              first = 0, averaging = 0;
+	std::vector<Real>              pressedOf, weightOf, speedOf, meanSpeedOf, lostOf; // sums of the step, by cell
+	Real                           first = 0, averaging = 0, cutLength = 0;
+	boost::weak_ptr<BodyContainer> home; // whose bodies the walls are
 };
 REGISTER_SERIALIZABLE(SlipSurfaceMat);
 

@@ -7,6 +7,11 @@ STYLE = "py/nonsmooth/figures/style.py"
 
 SAME = {
     (
+        "pkg/dem/space/NscdSpacePhys.cpp",
+        "m.bondEllipseTwisting < 0",
+        "m.bondEllipseTwisting <= 0",
+    ): "0 is refused where it is set",
+    (
         "py/nonsmooth/studies/comparison/biaxials.py",
         'SOURCE, DISKS = "wwr", 1000',
         'SOURCE, DISKS = "wwr", 1001',

@@ -98,8 +98,9 @@ def wall_material(m, **others):
     """
     options = dict(wall=True, bondsToAll=m.bonded, layer=-1)
     if m.slip_law is not None:  # which says what friction is
-        law = dict(law=m.slip_law.make(), frictionAngle=math.atan(m.friction), residualFrictionAngle=-1.0)
-        return material(m, SlipSurfaceMat, **{**options, **law, **others})
+        law = m.slip_law.make()
+        friction = dict(frictionAngle=math.atan(law.friction()), residualFrictionAngle=-1.0)
+        return material(m, SlipSurfaceMat, **{**options, **friction, "law": law, **others})
     weak = m.slip_weakening
     if weak is None:
         return material(m, **{**options, **others})

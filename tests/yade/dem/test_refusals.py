@@ -591,3 +591,17 @@ def test_a_radius_without_sense_is_refused_where_no_other_disk_is(radius):
     begin()
     with pytest.raises(RuntimeError, match=f"body #{disk}.* is a Sphere of radius"):
         O.step()
+
+
+@pytest.mark.parametrize("between", [0, 2])
+def test_two_disks_need_a_functor(between):
+    """Whatever bodies without a shape, or walls, stand between them."""
+    stuff = material()
+    free_disk(0, 0, stuff)
+    for k in range(between):
+        O.bodies.append(scene.segments([(5 + k, 0), (6 + k, 0)], stuff))
+    free_disk(0.9, 0, stuff)
+    begin(gravity=(0, 0, 0))
+    loop = next(e for e in O.engines if isinstance(e, InteractionLoop))
+    loop.geomDispatcher.functors = [Ig2_Segment_Sphere_ScGeom()]
+    refused("Ig2_Sphere_Sphere_ScGeom", "would pass through each other")

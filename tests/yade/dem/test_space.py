@@ -453,3 +453,6 @@ def test_the_problem_of_a_step_is_written_and_solved_again(tmp_path):
     problem = contact.load(str(tmp_path / "step.h5"))
     assert type(problem) is contact.SpaceProblem and len(problem.body) == O.engines[-2].candidates
     assert contact.residual(problem).relative == pytest.approx(O.engines[-2].residual, abs=1e-12)
+    floor, balls = problem.body[problem.body[:, 0] == 0], problem.body[problem.body[:, 0] != 0]
+    # from the floor to the ball, and from the ball of the lower id to the other
+    assert len(floor) == 4 and len(balls) == 12 and np.all(balls[:, 0] < balls[:, 1])

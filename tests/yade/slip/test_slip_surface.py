@@ -189,6 +189,60 @@ def test_walls_apart_have_cells_apart_and_arcs_have_them_too():
     assert found["ends_m"][5][1] == pytest.approx((0, 40)) and found["ends_m"][4][0] == pytest.approx((-10, 50))
 
 
+@pytest.mark.parametrize("backwards", [False, True])
+def test_strength_has_no_joints(backwards):
+    """A disk that slides over a joint keeps the friction of the cell; also where walls run the other way, as those of a
+    mirrored slope do."""
+    m = wall(law=SlipLaw("step", friction=0.4, weakened_friction=0.0, critical_slip=0.5), cellLength=1000.0)
+    O.bodies.append(scene.segments([(-5, 0), (5, 0), (15, 0)], m, backwards=backwards))
+    disk = O.bodies.append(scene.disk((0, 0.5), 0.5, material(0.5)))
+    begin(dt=1e-3)
+    O.bodies[disk].state.blockedDOFs = "zXYZ"
+    O.bodies[disk].state.vel = (10, 0, 0)
+    frictions = []
+    for _ in range(1200):
+        run(1)
+        frictions += [i.phys.currentFriction for i in contacts()]
+    assert O.bodies[disk].state.pos[0] > 6 and m.cellCount() == 1
+    assert frictions == sorted(frictions, reverse=True) and frictions[-1] == 0
+
+
+def test_a_wall_that_runs_back_has_its_cells_where_they_are():
+    for backwards in (False, True):
+        O.reset()
+        m = wall(cellLength=4.0)
+        O.bodies.append(scene.segments([(0, 0), (6, 0), (12, 0)], m, piece=3.0, backwards=backwards))
+        disk = O.bodies.append(scene.disk((1, 0.5), 0.5, material(0.5)))
+        begin()
+        run(2)
+        found = surface.cells(m)
+        (borne,) = np.flatnonzero(found["normal_stress_Pa"])
+        lower, upper = sorted(found["ends_m"][borne, :, 0])
+        assert (lower, upper) == (pytest.approx(0), pytest.approx(4)) and len(found["slip_m"]) == 3
+        assert O.bodies[disk].state.pos[0] == pytest.approx(1)
+
+
+def test_cells_of_walls_that_are_gone_have_no_places():
+    m = wall()
+    O.bodies.append(scene.segments([(0, 0), (20, 0)], m))
+    begin()
+    run(1)
+    O.reset()
+    assert np.isnan(surface.cells(m)["ends_m"]).all() and len(surface.cells(m)["slip_m"]) == 3
+
+
+def test_a_material_that_is_used_again_begins_anew():
+    m = wall()
+    ids, way = block(m, length=20.0)
+    course(ids, way, m, 50)
+    assert m.heat > 0
+    O.reset()
+    ids, way = block(m, length=20.0)
+    assert m.heat == pytest.approx(sum(engine().wallSlidingLoss), rel=1e-10, abs=1e-6)
+    course(ids, way, m, 50)
+    assert m.heat == pytest.approx(sum(engine().wallSlidingLoss), rel=1e-10)
+
+
 def test_what_is_saved_goes_on_with_the_same_bits(tmp_path):
     m = wall(label="slide")
     ids, way = block(m, length=60.0)
@@ -231,6 +285,7 @@ def test_a_wall_below_its_friction_stays_cold():
         (dict(frictionAngle=0.3), "frictionAngle"),
         (dict(residualFrictionAngle=0.1), "residualFrictionAngle"),
         (dict(cellLength=-1), "cellLength"),
+        (dict(wall=False), "wall"),
         (dict(averagingSlip=math.inf), "averagingSlip"),
     ],
 )
@@ -272,6 +327,23 @@ def test_a_wall_that_comes_later_needs_its_own():
     run(1)
     O.bodies.append(scene.segments([(40, 0), (60, 0)], m))
     with pytest.raises(RuntimeError, match="a material of their own"):
+        run(1)
+
+
+def test_cells_are_cut_once_and_are_no_more_than_a_million():
+    m = wall(cellLength=5.0)
+    O.bodies.append(scene.segments([(0, 0), (20, 0)], m))
+    O.bodies.append(scene.disk((5, 1), 1.0, material(0.5)))
+    begin()
+    run(1)
+    m.cellLength = 3.0
+    O.bodies.append(scene.disk((15, 1), 1.0, material(0.5)))
+    with pytest.raises(RuntimeError, match="cellLength = 3: its cells have been cut, 5 m long"):
+        run(1)
+    O.reset()
+    O.bodies.append(scene.segments([(0, 0), (20, 0)], wall(cellLength=1e-9)))
+    begin()
+    with pytest.raises(RuntimeError, match="2e.10 cells along 20 m of wall; give at least 2e-05 m"):
         run(1)
 
 

@@ -28,6 +28,14 @@ WEAKEST = 2e-4
 NOMINAL = 2000.0  # kg/m³, ρ of that
 LEAST_ANGLE = 3.0  # degrees, of a measured envelope; smaller ones are radians
 
+#: Parameters of slip laws: {key: (least, most, what a value beyond is likely to be)}; rocks, clays and water have some
+#: thousandth of the most, and a thousand times the least.
+_ZONES = {
+    "heat_capacity": (1e5, 1e8, "J/(m³ K): {0:g} MJ/(m³ K) are {1:g}", 1e6),
+    "thermal_diffusivity": (0.0, 1e-3, "m²/s: {0:g} mm²/s are {1:g}", 1e-6),
+    "pressurization_coefficient": (1e2, 1e8, "Pa/K: {0:g} MPa/K are {1:g}", 1e6),
+    "thickness": (0.0, 2.0, "m: {0:g} mm are {1:g}", 1e-3),
+}
 _STRENGTHS = ("cohesion", "tensile_strength", "residual_tensile_strength")
 _FRICTIONS = ("friction", "residual_friction")
 _ROLLING = ("rolling_friction", "residual_rolling_friction")
@@ -78,7 +86,7 @@ def _values(material):
     """((key, …), number) of a material's data."""
     for key, value in material.items():
         if isinstance(value, dict):
-            yield from (((key, word), inside) for word, inside in value.items() if _is_number(inside))
+            yield from (((key, *words), inside) for words, inside in _values(value))
         elif _is_number(value):
             yield (key,), value
 
@@ -115,6 +123,10 @@ def _of_material(keys, value, gravity, stress):
             f"{value:g} Pa is next to nothing beside the weight of this slope, some {_pascals(stress)}",
             f"strengths are in Pa: {value:g} kPa are {1e3 * value:g}, and 0 is none",
         )
+    if "slip_law" in keys and key in _ZONES:
+        low, high, unit, factor = _ZONES[key]
+        if value > high or 0 < value < low:
+            return f"{value:g} is no {key} of a slip zone", f"it is in {unit.format(value, factor * value)}"
     if key == "friction_deg" and value < LEAST_ANGLE:
         return (
             f"{value:g} degrees is no angle of friction",

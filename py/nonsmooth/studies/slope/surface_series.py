@@ -27,27 +27,23 @@ class SurfaceSeries:
 
     def take(self):
         """Writes the rows of the present step."""
-        for name, (material, law) in self._walls.items():
-            found = surface.cells(material)
-            middle = found["ends_m"].mean(axis=1)
-            of_cells = {
-                "cell": np.arange(len(middle)),
-                "x_m": middle[:, 0],
-                "y_m": middle[:, 1],
-                "length_m": found["length_m"],
-                "slip_m": found["slip_m"],
-                "slip_rate_m_per_s": found["slip_rate_m_per_s"],
-                "normal_stress_Pa": found["normal_stress_Pa"],
-                "friction": found["friction"],
-                **_heated(found, law),
-            }
-            names = list(of_cells)
-            rows = zip(
-                *(of_cells[key].tolist() if of_cells[key] is not None else len(middle) * [None] for key in names)
-            )
-            self.file.write(
-                *({"step": O.iter, "time_s": O.time, "wall": name, **dict(zip(names, values))} for values in rows)
-            )
+        self.file.write(*(row for name, (material, law) in self._walls.items() for row in _rows(name, material, law)))
+
+
+def _rows(name, material, law):
+    """A row for each cell of a wall."""
+    found = surface.cells(material)
+    middle = found["ends_m"].mean(axis=1)
+    columns = {
+        "cell": np.arange(len(middle)),
+        "x_m": middle[:, 0],
+        "y_m": middle[:, 1],
+        **{key: found[key] for key in ("length_m", "slip_m", "slip_rate_m_per_s", "normal_stress_Pa", "friction")},
+        **_heated(found, law),
+    }
+    lists = [len(middle) * [None] if values is None else values.tolist() for values in columns.values()]
+    now = {"step": O.iter, "time_s": O.time, "wall": name}
+    return [now | dict(zip(columns, values)) for values in zip(*lists)]
 
 
 def _heated(found, law):

@@ -59,7 +59,7 @@ def test_the_slope_fails_and_its_surface_is_heated_by_what_sliding_loses(slid):
     # nothing had slid before gravity acted; most strength is gone in the end where the mass went, and only there
     end = {name: values[-count:] for name, values in cells.items() if name != "wall"}
     far = end["slip_m"] > 10
-    assert far.any() and end["friction"][far].max() < 0.1 * 0.6 and end["hottest_degC"][far].min() > 20
+    assert far.any() and end["friction"][far].max() < 0.1 * 0.6 and end["hottest_degC"][far].max() > 20
     still = end["slip_m"] == 0
     assert end["friction"][still] == pytest.approx(0.6) and end["temperature_degC"][still] == pytest.approx(15)
     assert np.all(end["hottest_degC"] >= end["temperature_degC"]) and np.isnan(cells["melt_m"]).all()
@@ -97,6 +97,9 @@ def test_other_walls_have_no_such_file(tmp_path):
             "pressurization_coefficient .* is missing",
         ),
         (lambda: heated(law="melting"), "'melting'"),
+        (lambda: heated(law="thermal_pressurization", parameters=ZONE | {"heat_capacity": 2.85}), "2.85 MJ"),
+        (lambda: heated(law="thermal_pressurization", parameters=ZONE | {"thermal_diffusivity": 0.145}), "0.145 mm²/s"),
+        (lambda: heated(law="thermal_pressurization", parameters=ZONE | {"thickness": 10.0}), "10 mm are 0.01"),
         (lambda: heated(law="thermal_pressurization", parameters=ZONE | {"thickness": -1.0}), "thickness = -1"),
         (lambda: heated(release=5.0), "release_distance: 5 m, and the slip law of the wall circle"),
         (
@@ -139,6 +142,27 @@ def test_soft_contacts_searches_and_other_sizes_are_refused(tmp_path):
     with pytest.raises(section.SectionError, match="no similar one"):
         similar.scaled(made, 2.0)
     assert similar.mirrored(similar.mirrored(made)).materials == made.materials
+
+
+def test_several_walls_have_their_rows(tmp_path):
+    made = heated()
+    made["materials"]["ground"] = made["materials"]["surface"]
+    run = experiment.begin(section.of(made), tmp_path / "run")
+    run.run(end=0.2)
+    cells = runs.open_run(tmp_path / "run").slip_surface
+    assert list(dict.fromkeys(cells["wall"].tolist())) == ["valley", "circle", "plateau"]
+
+
+def test_a_mirrored_slope_has_mirrored_cells(tmp_path):
+    made, rows = section.of(heated()), []
+    for k, one in enumerate((made, similar.mirrored(made))):
+        run = experiment.begin(one, tmp_path / str(k))
+        run.run(end=2.0)
+        cells = runs.open_run(tmp_path / str(k)).slip_surface
+        order = np.lexsort((one.side * cells["x_m"], cells["step"]))
+        rows.append({name: values[order] for name, values in cells.items() if name not in ("cell", "x_m", "wall")})
+    for name in ("length_m", "slip_m", "normal_stress_Pa", "friction", "hottest_degC"):
+        assert np.array_equal(rows[0][name], rows[1][name]), name
 
 
 def test_it_is_written_down_as_it_is(tmp_path):
