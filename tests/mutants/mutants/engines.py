@@ -53,7 +53,7 @@ MUTANTS = (
            "the torque on the first body lacks rolling", "test_reactions.py::test_contacts_give_no_moment_in_all"),
     mutant("scatter-slip", SCATTER, "std::abs(h * u1.t)", "h * u1.t", "slip to and fro counts as none",
            "test_contact_law.py::test_slip_survives_joints_and_is_the_path"),
-    mutant("scatter-slip-open", SCATTER, "pressed + c.adhesion > 0;", "pressed + c.adhesion >= 0;", "disks that fly over a wall slip on it",
+    mutant("scatter-slip-open", SCATTER, "pressed + c.adhesion > 0", "pressed + c.adhesion >= 0", "disks that fly over a wall slip on it",
            "test_contact_law.py::test_a_wall_never_gains_strength_by_slip_and_one_that_does_not_press_counts_none"),
     mutant("scatter-yield-mode", READING, "Vector3r(path.tension, path.shear, path.torque)", "Vector3r(path.tension, path.shear + path.torque, 0)",
            "a bond that rolls counts as sheared", "test_bonds.py::test_bond_breaks_just_above_its_threshold_and_records_how"),
