@@ -132,8 +132,8 @@ namespace {
 			fail(pair + " has phys." + name + " = " + number(name == "kn" ? phys.kn : phys.ks)
 			     + " N/m, and a rigid contact has no stiffness: leave kn and ks 0");
 		if (name == "tangensOfFrictionAngle")
-			fail(pair
-			     + " was given another phys.tangensOfFrictionAngle, but slip has already taken away the friction of this wall: set the wall's frictionAngle and weakenedFrictionAngle, and call ContactDynamicsEngine.updateStrengths()");
+			fail(pair + " was given phys.tangensOfFrictionAngle = " + number(phys.residualFriction)
+			     + ", but slip rules the friction of this wall: set frictionAngle and weakenedFrictionAngle of a SlipWeakeningMat and call ContactDynamicsEngine.updateStrengths(), or give the wall another law");
 		fail(pair + " was given phys.normalForce = " + vector(phys.normalForce)
 		     + " and phys.shearForce = " + vector(phys.shearForce)
 		     + " N by a script, and the solver computes these forces in each step: press bodies by O.forces.setPermF, or set both to zero if the solver is to begin without a first guess");

@@ -20,6 +20,7 @@ from soft_scenes import ROCK, WALL
 from yade import O, utils, wrapper
 from yade.minieigenHP import Vector3, Vector3i
 from yade.nonsmooth import scene, section, soft, space
+from yade.nonsmooth.slip.laws import SlipLaw
 from yade.wrapper import (
     BondEllipseEngine,
     CourseRunner,
@@ -34,6 +35,7 @@ from yade.wrapper import (
     PlanarNewtonIntegrator,
     PorePressureEngine,
     PorePressureField,
+    SlipSurfaceMat,
     SlipWeakeningMat,
     WallForceEngine,
 )
@@ -422,6 +424,31 @@ def sliding_contact():
     return looked(lambda: O.interactions[bed, slides].phys, None, [low], [slides])
 
 
+def heated():
+    """The same on a wall whose friction a law finds in cells along it."""
+    stuff = rough()
+    law = SlipLaw("linear", friction=0.6, weakened_friction=0.1, critical_slip=0.5)
+    wall = rough(kind=SlipSurfaceMat, law=law, tensileStrength=10.0)
+    bed = floor(wall)
+    low, slides = disk(0, 0.5, stuff), disk(5, 0.5, stuff, (2, 0, 0))
+    O.bodies[slides].state.blockedDOFs = "zXYZ"
+    begin(gravity=OBLIQUE)
+    return wall, bed, low, slides
+
+
+@in_both_loops("SlipSurfaceMat", lists=("interfaceLayers",))
+def wall_with_cells():
+    wall, bed, low, slides = heated()
+    wall.interfaceLayers, wall.interfaceLaws = [3], [NscdMat(density=2500, frictionAngle=0.2)]
+    return looked(lambda: wall, None, [low], [slides], apply=take_up([]))
+
+
+@in_both_loops("SlipSurfacePhys", before=False)
+def contact_with_a_cell():
+    wall, bed, low, slides = heated()
+    return looked(lambda: O.interactions[bed, slides].phys, None, [low], [slides])
+
+
 for where, bond in (("", False), (" of a bond", True)):
 
     @in_both_loops("NscdPhys" + where, before=False)
@@ -612,9 +639,11 @@ with_springs("Ig2_Arc_Sphere_ScGeom with springs", lambda stuff, bed: functor("I
 INHERITED = {
     "NscdMat": ("frictionAngle", "density"),
     "SlipWeakeningMat": ("frictionAngle", "density"),
+    "SlipSurfaceMat": ("frictionAngle", "density"),
     "PlanarNewtonIntegrator": ("damping", "gravity", "mask"),
     "NscdPhys": ("tangensOfFrictionAngle", "normalForce", "shearForce", "kn", "ks"),
     "SlipWeakeningPhys": ("tangensOfFrictionAngle", "normalForce", "shearForce", "kn", "ks"),
+    "SlipSurfacePhys": ("tangensOfFrictionAngle", "normalForce", "shearForce", "kn", "ks"),
     "NscdSpacePhys": ("tangensOfFrictionAngle", "normalForce", "shearForce", "kn", "ks"),
     "WallPhys": ("tangensOfFrictionAngle", "normalForce", "shearForce"),
 }
@@ -1004,6 +1033,12 @@ HARMLESS = {
         0: "no friction is left where the slip is great, and this disk has none"
     },
     ("SlipWeakeningMat", "weakenedTensileStrength"): {0: AS_IT_IS},
+    ("SlipSurfaceMat", "cellLength"): {0: "eight mean diameters, as it is"},
+    ("SlipSurfaceMat", "averagingSlip"): {0: "half a cell, as it is"},
+    # what other contacts take, and these refuse, since the law alone says what friction is
+    ("SlipSurfaceMat", "frictionAngle"): {0: None},
+    ("SlipSurfaceMat", "residualFrictionAngle"): {0: None},
+    ("SlipSurfacePhys", "tangensOfFrictionAngle"): {0: None},
     # ---- contacts
     ("NscdPhys", "normal"): {-1: BEGINS, 0: BEGINS},
     ("NscdPhys", "tangential"): {-1: BEGINS, 0: BEGINS},

@@ -8,7 +8,7 @@ from yade.minieigenHP import Vector3
 from yade.nonsmooth import scene
 from yade.nonsmooth.slip import surface
 from yade.nonsmooth.slip.laws import SlipError, SlipLaw
-from yade.wrapper import NscdMat, SlipSurfaceMat
+from yade.wrapper import NewtonIntegrator, NscdMat, SlipSurfaceMat
 
 from contact_scenes import G, begin, contacts, engine, material, run
 
@@ -212,14 +212,28 @@ def test_a_wall_that_runs_back_has_its_cells_where_they_are():
         O.reset()
         m = wall(cellLength=4.0)
         O.bodies.append(scene.segments([(0, 0), (6, 0), (12, 0)], m, piece=3.0, backwards=backwards))
-        disk = O.bodies.append(scene.disk((1, 0.5), 0.5, material(0.5)))
+        disk = O.bodies.append(scene.disk((3.5, 0.5), 0.5, material(0.5)))
         begin()
         run(2)
         found = surface.cells(m)
         (borne,) = np.flatnonzero(found["normal_stress_Pa"])
         lower, upper = sorted(found["ends_m"][borne, :, 0])
         assert (lower, upper) == (pytest.approx(0), pytest.approx(4)) and len(found["slip_m"]) == 3
-        assert O.bodies[disk].state.pos[0] == pytest.approx(1)
+        assert O.bodies[disk].state.pos[0] == pytest.approx(3.5)
+
+
+def test_stress_of_a_cell_is_a_mean_over_its_last_slip():
+    m = wall(law=SlipLaw("none", friction=0.0), cellLength=100.0, averagingSlip=1.0)
+    O.bodies.append(scene.segments([(0, 0), (100, 0)], m))
+    disk = O.bodies.append(scene.disk((10, 0.5), 0.5, material(0.0)))
+    begin(dt=1e-3)
+    O.bodies[disk].state.vel = (1, 0, 0)
+    run(2000)
+    before = O.bodies[disk].state.mass * G / 100
+    assert surface.cells(m)["normal_stress_Pa"] == pytest.approx([before], rel=1e-6)
+    next(e for e in O.engines if isinstance(e, NewtonIntegrator)).gravity = (0, -2 * G, 0)
+    run(1000)  # another metre: 1/e of the old stress are left
+    assert surface.cells(m)["normal_stress_Pa"] == pytest.approx([before * (2 - math.exp(-1))], rel=1e-3)
 
 
 def test_cells_of_walls_that_are_gone_have_no_places():
