@@ -173,9 +173,9 @@ def check_pressures(section: Section, document) -> None:
     gives back would come in the middle of weakening.
     """
     x0, _, x1, _ = section.bounds
-    for wall in section.walls:
-        law = section.materials[wall.material].slip_law
-        if law is not None and "thermal_pressurization" in law.make().names and section.release_distance < x1 - x0:
+    for wall in section.with_slip_law:
+        law = section.materials[wall.material].slip_law.make()
+        if "thermal_pressurization" in law.names and section.release_distance < x1 - x0:
             document.refuse(
                 ("water", "release_distance"),
                 f"{section.release_distance:g} m, and the slip law of the wall {wall.name} has a pore pressure of its own, "

@@ -139,6 +139,11 @@ class Section:
         """The walls, then the interfaces, whose material weakens with slip."""
         return tuple(one for one in (*self.walls, *self.interfaces) if self.materials[one.material].slip_weakening)
 
+    @property
+    def with_slip_law(self) -> tuple[Wall, ...]:
+        """The walls whose material has a slip law, which has cells along them."""
+        return tuple(wall for wall in self.walls if self.materials[wall.material].slip_law is not None)
+
     @cached_property
     def slip_surfaces(self) -> tuple[tuple[str, np.ndarray], ...]:
         """Name and line (n, 2) [m] of each slip surface, in the order of :attr:`sliding`."""

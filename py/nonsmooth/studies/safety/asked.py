@@ -59,12 +59,11 @@ class Asked:
         self._check_envelope()
         self.rules()
         self.make_world()
-        for wall in section.walls:
-            if section.materials[wall.material].slip_law is not None:
-                raise SafetyError(
-                    f"{section.source}: wall {wall.name}: its friction is that of a slip law, which is not divided; give "
-                    "its material no slip_law"
-                )
+        for wall in section.with_slip_law:
+            raise SafetyError(
+                f"{section.source}: wall {wall.name}: its friction is that of a slip law, which is not divided; give "
+                "its material no slip_law"
+            )
         if section.erosion:
             raise SafetyError(
                 f"{section.source}: erosion: a search takes no disks out, and {section.erosion[0].name} would not act; "

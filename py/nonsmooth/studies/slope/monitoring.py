@@ -100,7 +100,7 @@ class SlopeMonitor:
         """Opens the file of cells along walls with slip laws, where there are some; returns its SurfaceSeries, or
         None.
         """
-        if any(self.section.materials[wall.material].slip_law is not None for wall in self.section.walls):
+        if self.section.with_slip_law:
             self.surfaces = SurfaceSeries(self.slope, path, mark)
         return self.surfaces
 

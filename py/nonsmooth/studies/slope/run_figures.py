@@ -157,7 +157,7 @@ class Drawing:
 
     def _slip_surface(self, path):
         """Nothing where no wall has a slip law, or nothing has slid on one."""
-        if not any(self.section.materials[wall.material].slip_law is not None for wall in self.section.walls):
+        if not self.section.with_slip_law:
             return None
         cells = records.read_surfaces(self.folder / results.SURFACE)
         return figures.slip_surface(cells, path, times=self.times) if np.any(cells["slip_m"] > 0) else None

@@ -21,8 +21,11 @@ class SurfaceSeries:
     """
 
     def __init__(self, built, path, mark=None):
-        laws = {w.name: built.section.materials[w.material].slip_law for w in built.section.walls}
-        self._walls = {name: (built.wall_material(name), law.make()) for name, law in laws.items() if law is not None}
+        materials = built.section.materials
+        self._walls = {
+            wall.name: (built.wall_material(wall.name), materials[wall.material].slip_law.make())
+            for wall in built.section.with_slip_law
+        }
         self.file = records.SeriesWriter(path, SURFACE_COLUMNS, resume_from=mark, overwrite=True)
 
     def take(self):
