@@ -100,8 +100,13 @@ void SlipWeakeningMat::checkWeakening() const
 	        weakenedFrictionAngle, "from 0 to below π/2 [rad]");
 	require(weakenedTensileStrength >= 0 && nscd::isNumber(weakenedTensileStrength), "weakenedTensileStrength",
 	        weakenedTensileStrength, "0 or more, and finite [Pa]");
+	if (!law) makeLaw(); // says why there is none
+}
+
+std::shared_ptr<const nonsmooth::contact::slip::BySlip> SlipWeakeningMat::makeLaw() const
+{
 	try {
-		nonsmooth::contact::slip::makeBySlip(weakening, criticalSlip);
+		return nonsmooth::contact::slip::makeBySlip(weakening, criticalSlip);
 	} catch (const std::invalid_argument& error) {
 		throw std::invalid_argument(getClassName() + " '" + label + "': " + error.what());
 	}
@@ -109,9 +114,8 @@ void SlipWeakeningMat::checkWeakening() const
 
 void SlipWeakeningMat::takeLaw()
 {
-	using namespace nonsmooth::contact::slip;
 	law.reset();
-	if (knowsBySlip(weakening) && criticalSlip > 0) law = makeBySlip(weakening, criticalSlip);
+	law = makeLaw();
 	checkWeakening();
 }
 

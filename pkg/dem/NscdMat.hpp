@@ -121,8 +121,10 @@ leaves it. Slip belongs to a body and not to its id: one that takes the id of an
 private:
 	void checkWeakening() const;
 	void takeLaw();
-	void forgetOthers();
-	void noteOwner(Body::id_t id, const shared_ptr<Body>& body);
+	/// Throws std::invalid_argument where `weakening` or `criticalSlip` makes no sense.
+	std::shared_ptr<const nonsmooth::contact::slip::BySlip> makeLaw() const;
+	void                                                    forgetOthers();
+	void                                                    noteOwner(Body::id_t id, const shared_ptr<Body>& body);
 
 	std::vector<std::pair<long, Real>>
 	        ofStep; // by body: the last step in which it slipped along an interface, and how far

@@ -289,3 +289,26 @@ def test_means_of_each_combination_and_verdict():
         ({"friction": 0.3}, None, [], 1),
         ({"friction": 0.6}, None, [], 1),
     ]
+
+
+@pytest.mark.parametrize(
+    "table, varied, said",
+    [
+        ({"friction": [0.3]}, ["friction"], "^table: the table has no column 'run'; it has friction$"),
+        (
+            {"run": ["a"], "friction": [0.3], "seed": [1]},
+            ["friction", "water.rate"],
+            "^varied: the table has no column 'water.rate'; it has run, friction, seed$",
+        ),
+        (
+            {"run": ["a"]},
+            "seed",
+            r"^varied 'seed': give the list of the keys that were varied, as \['seed', 'water.rate'\]$",
+        ),
+        ({"run": ["a"]}, [7], r"^varied \[7\]: give the list of the keys"),
+        ([["a"]], ["seed"], "^table .*give the table of a plan"),
+    ],
+)
+def test_a_table_without_what_was_varied_has_no_means(table, varied, said):
+    with pytest.raises(plan.PlanError, match=said):
+        plan.means(table, varied)

@@ -181,6 +181,8 @@ def test_npz(three, tmp_path):
     np.savez(path, x=three.x)
     with pytest.raises(PackingError, match="delete the file"):
         packing.load(path)
+    with pytest.raises(PackingError, match=r"deep: cannot be read \(Is a directory\); make it readable, or delete it"):
+        packing.load(path.parent)
 
 
 def test_cannot_be_written(three, tmp_path):
@@ -312,6 +314,28 @@ def test_packing_of_another_section(case, section, packed):
     assert str(info.value).startswith("p.txt: ") and "\n" not in str(info.value)
 
 
+def test_disks_that_overlap_are_told_by_how_much(section, packed):
+    """One disk is brought nearer to its neighbour, by 5 % of their mean diameter; or all but the largest have grown by
+    0.4 %, so that no pair is bad and their mean is.
+    """
+    k = inner(packed)
+    near = np.hypot(packed.x - packed.x[k], packed.y - packed.y[k]) - packed.r - packed.r[k]
+    near[(packed.layer != packed.layer[k]) | (np.arange(len(packed)) == k)] = np.inf
+    other = int(np.argmin(near))
+    way = np.array([packed.x[other] - packed.x[k], packed.y[other] - packed.y[k]])
+    share = 1 - 0.95 * (packed.r[k] + packed.r[other]) / np.hypot(*way)
+    x, y = packed.x.copy(), packed.y.copy()
+    x[k], y[k] = x[k] + share * way[0], y[k] + share * way[1]
+    with pytest.raises(
+        PackingError,
+        match="^p.txt: disks overlap by up to 0.05[0-9]* of their mean diameter, .* at most 0.02, and 0.001 in the mean",
+    ):
+        packing_checks.check(moved(packed, x=x, y=y), section, "p.txt")
+    grown = moved(packed, r=np.minimum(1.004 * packed.r, packed.r.max()))
+    with pytest.raises(PackingError, match=r"disks overlap by up to 0\.00\d+ of their mean diameter, 0\.00[1-4]"):
+        packing_checks.check(grown, section, "p.txt")
+
+
 def test_packings_of_the_section_are_taken(section, packed, bent):
     packing_checks.check(packed, section, "p.txt")
     packing_checks.check(packing.pack(section, 2), section, "p.txt")
@@ -336,6 +360,9 @@ def test_bad_arrays():
         Packing([0.0], [0.0, 1.0], [1.0], [0])
     with pytest.raises(PackingError, match="disk 1: x is inf"):
         Packing([0.0, np.inf], [0.0, 1.0], [1.0, 1.0], [0, 0])
+    for r in (0.0, -1.0):
+        with pytest.raises(PackingError, match=f"^disk 1: the radius is {r:g} m; give one above 0$"):
+            Packing([0.0, 3.0], [0.0, 1.0], [1.0, r], [0, 0])
 
 
 def test_packing_fraction_of_a_known_lattice():

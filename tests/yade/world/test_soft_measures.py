@@ -265,6 +265,29 @@ def test_without_contacts_there_is_no_overlap():
     assert tables.breaks(seen)["step"].tolist() == [] and seen.forgetEnergies() is None
 
 
+def test_bonds_of_disks_that_are_taken_out_have_not_broken():
+    """Of three bonds in a row the end one goes with its disk; one that is drawn apart then is the only one that
+    broke, and the last stays.
+    """
+    seen, ids = begin([(float(k), 0, 0.5) for k in range(4)])
+    assert seen.bond() == 3
+    for k in ids:
+        O.bodies[k].state.blockedDOFs = "xyzXYZ"
+    run(2)
+    O.bodies.erase(ids[0])
+    seen.forget_bodies([ids[0]])
+    assert seen.disks["id"].tolist() == ids[1:]  # the table is read anew in the same step
+    run(1)
+    assert (seen.bonds, broken(seen)) == (2, {})
+    O.bodies[ids[3]].state.vel = (5.0, 0, 0)
+    for _ in range(4000):
+        run(1)
+        if seen.bonds == 1:
+            break
+    assert (seen.bonds, broken(seen)) == (1, {"brokenTension": 1})
+    assert tables.breaks(seen)["id1"].tolist() == [ids[2]]
+
+
 def test_masses_follow_the_disks_that_are_there():
     """A disk that is added is counted with its own mass."""
     seen, ids = begin([(0, 0, 0.5), (3, 0, 0.5)])

@@ -312,3 +312,56 @@ def test_a_search_knows_how_much_is_left(search, monkeypatch, fine, wholes):
     with pytest.raises(Over):
         made.run((600, (1, 2, 3)), fine)
     assert told == wholes and made.names == ("tensile_strength", "friction")
+
+
+def test_how_far_a_search_is_counts_the_disks_of_all_its_trials(search):
+    """Two trials, of 600 and of 900 disks, of a search over 3,000: a third of the way through the second it is at
+    900 of 3,000; never past its end.
+    """
+    one, told = search(PEAK), []
+    one.progress = lambda share, doing: told.append((share, doing))
+    one._done, one._whole = 0.0, 3000
+    one._show(600)(1.0, "shearing")
+    one.trials.append({})
+    show = one._show(900)
+    show(1 / 3, "pressing")
+    show(9.0, "pressing")
+    assert told == [
+        (pytest.approx(0.2), "trial 1: shearing"),
+        (pytest.approx(0.3), "trial 2: pressing"),
+        (1.0, "trial 2: pressing"),
+    ]
+
+
+@pytest.mark.parametrize("threads, at_once", [(1, 1), (2, 2), (8, 2)])
+def test_how_long_a_step_and_a_test_take_is_measured(search, monkeypatch, tmp_path, threads, at_once):
+    """Two tests that end after 12 s; of 30 and 50 steps, which took 1.2 and 2.0 s: 40 ms a step, and what is left
+    of a test's time is its start. On several threads both go at once.
+    """
+    one, asked, clock = search(PEAK), [], iter((100.0, 112.0))
+    one.threads = threads
+    disks, strain = calibration.TIMED
+    monkeypatch.setattr(calibration.pressing, "prepare", lambda shape, folder: asked.append((shape.count, folder)))
+
+    def run(tests, folder, threads):
+        asked.append((tests, threads))
+        (folder / "runs").mkdir(parents=True)
+        return [{"wall_steps_s": 1.2, "steps": 30}, {"wall_steps_s": 2.0, "steps": 50}]
+
+    monkeypatch.setattr(campaign, "run", run)
+    monkeypatch.setattr(calibration.time, "monotonic", lambda: next(clock))
+    each, start = one.timed()
+    assert each == pytest.approx(0.04 / disks, rel=1e-12)
+    assert start == pytest.approx(12.0 * at_once / 2 - 1.6, rel=1e-12)
+    prepared, (tests, given) = asked
+    assert prepared == (disks, tmp_path / "timed" / "pressing") and given == threads
+    assert [t.confining for t in tests] == [0.5 * 60e3, 48 * 60e3] and {t.strain for t in tests} == {strain}
+    assert not (tmp_path / "timed").exists()
+
+
+def test_a_test_that_is_all_steps_has_no_start(search, monkeypatch):
+    one, clock = search(PEAK), iter((0.0, 1.0))
+    monkeypatch.setattr(calibration.pressing, "prepare", lambda shape, folder: None)
+    monkeypatch.setattr(campaign, "run", lambda tests, folder, threads: [{"wall_steps_s": 5.0, "steps": 10}] * 2)
+    monkeypatch.setattr(calibration.time, "monotonic", lambda: next(clock))
+    assert one.timed()[1] == 0.0

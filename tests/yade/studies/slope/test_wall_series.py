@@ -309,3 +309,49 @@ def test_an_obstacle_is_pushed_by_what_hits_it_alone(tmp_path, side, way):
         and told["normal_peak_N_per_m"] == told["normal_N_per_m"]
     )
     assert math.isnan(told["slip_mean_m"]) and math.isnan(told["energy_sliding_J"])
+
+
+@pytest.mark.parametrize("names", [("first",), ("first", "second")])
+def test_interfaces_that_bear_the_mass_alone_are_its_slip_surface(tmp_path, names):
+    """The plane is ground here: the sum of role slip is over the interfaces of that role."""
+
+    def change(data):
+        two_on_one(data)
+        for wall in data["walls"][:2]:
+            wall["role"] = "ground"
+        for interface in data["interfaces"]:
+            interface.pop("role", None)
+            if interface["name"] in names:
+                interface["role"] = "slip"
+
+    made = written(tmp_path, change)
+    assert [one.name for one in made.lowest_surfaces] == list(names)
+    disks = [(6.0, 5.0, 0.5, 0), (20.0, 5.0, 0.5, 0), (6.0, 6.0, 0.5, 1), (20.0, 6.0, 0.5, 2)]
+    placed = Placed(made, disks, tmp_path)
+    for state in placed.states[:2]:
+        state.blockedDOFs = "xyzXYZ"
+    placed.push(0.0, 0.0, 2.0, 2.0)
+    force = placed.forces()[2 : 2 + len(names)].sum(axis=0)
+    found, _ = placed.series.take()
+    normal, shear = force @ np.array(made.normal), -(force @ np.array(made.downslope))
+    assert normal > 0 and shear > 0
+    # of several the peaks are added too, each of the last step
+    assert found["slip"] == pytest.approx((normal, shear, normal), rel=1e-6)
+    assert found["ground"] == pytest.approx((0.0, 0.0, 0.0), abs=1e-9)
+
+
+def test_slip_is_that_of_the_disks_that_are_there(tmp_path):
+    """Two that slide on one wall, past its critical slip and not so far; the farther one is taken out, and then both."""
+    placed = Placed(written(tmp_path, weakening), ON_THE_WALLS, tmp_path)
+    start = placed.along("pos")
+    placed.push(1.0, 2.0, 0.5, 1.5)
+    while O.time < 0.0395:
+        O.step()
+    gone = placed.along("pos") - start
+    assert placed.series.slip("lower").weakened == 1 and placed.series.slip("lower").touched == 3
+    placed.series.there = np.sort(placed.numbers[[0, 2, 3]])
+    slip = placed.series.slip("lower")
+    assert slip == (pytest.approx(gone[[0, 2]].mean(), rel=1e-6), 0, 2, True)
+    assert placed.series.slip() == (pytest.approx(gone[[0, 2, 3]].mean(), rel=1e-6), 1, 3, True)
+    placed.series.there = placed.numbers[[3]]
+    assert placed.series.slip("lower") == (0.0, 0, 0, True)
