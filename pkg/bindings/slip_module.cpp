@@ -130,6 +130,7 @@ PYBIND11_MODULE(_nonsmooth_slip, m)
 		             return NamedCells { own.law->cells(count, normalStress), own.law->columns() };
 	             })
 	        .def("prepare", [](NamedLaw& own, double h) { own.law->prepare(h); })
+	        .def("friction", [](NamedLaw& own) { return own.law->friction(); })
 	        .def("strength", [](const NamedLaw& own, NamedCells& c) { own.law->strength(c.cells, c.cells.all()); })
 	        .def("advance", [](const NamedLaw& own, NamedCells& c) { own.law->advance(c.cells, c.cells.all()); })
 	        .def("heat_in",

@@ -61,7 +61,7 @@ void SlipSurfaceMat::setLaw(py::object law)
 		        getClassName() + " '" + label
 		        + "': law: it must be a nonsmooth.slip.SlipLaw, such as nonsmooth.slip.parameter_sets.law('vaiont')");
 	}
-	if (!slip.empty())
+	if (cellCount() > 0)
 		throw std::invalid_argument(
 		        getClassName() + " '" + label
 		        + "': its cells have been cut; give the walls another material for another law");
@@ -112,10 +112,7 @@ void SlipSurfaceMat::makeLaw()
 		throw std::invalid_argument(getClassName() + " '" + label + "': " + error.what());
 	}
 	surfaceLaw = made;
-	made->prepare(1); // friction at rest does not depend on the step
-	contact::Cells one = made->cells(1, 1e6);
-	made->strength(one, one.all());
-	first = one.strength[0] / 1e6;
+	first      = made->friction();
 }
 
 void SlipSurfaceMat::validate() const
@@ -175,9 +172,19 @@ void SlipSurfaceMat::open(const Scene& scene, Real h)
 	findStrengths(h);
 }
 
+void SlipSurfaceMat::preSave(SlipSurfaceMat&)
+{
+	if (geometry.count() == 0) return; // as it was loaded
+	slip.assign(cells.slip.begin(), cells.slip.end());
+	slipRate.assign(cells.slipRate.begin(), cells.slipRate.end());
+	normalStress.assign(cells.normalStress.begin(), cells.normalStress.end());
+	lawState.assign(cells.state.begin(), cells.state.end());
+}
+
 void SlipSurfaceMat::forgetAll()
 {
 	geometry = {};
+	cells    = {};
 	for (auto* column : { &slip, &slipRate, &normalStress, &friction, &lawState })
 		column->clear();
 	heat = 0;
@@ -192,17 +199,13 @@ void SlipSurfaceMat::findStrengths(Real h)
 
 void SlipSurfaceMat::begin()
 {
-	const size_t count = cells.count();
-	for (auto* column : { &slip, &slipRate, &normalStress })
-		column->assign(count, 0);
-	friction.assign(count, first);
-	lawState.assign(cells.state.begin(), cells.state.end());
+	friction.assign(cells.count(), first);
 	heat = 0;
 }
 
 void SlipSurfaceMat::forgetSlip()
 {
-	if (slip.empty()) return;
+	if (cellCount() == 0) return;
 	if (geometry.count() == 0) open(*Omega::instance().getScene(), lawStep); // loaded
 	cells = surfaceLaw->cells(geometry.count());
 	begin();
@@ -237,10 +240,6 @@ void SlipSurfaceMat::close(Real h)
 	findStrengths(h);
 	for (size_t c = 0; c < cells.count(); ++c)
 		friction[c] = cells.normalStress[c] > 0 ? cells.strength[c] / cells.normalStress[c] : first;
-	slip.assign(cells.slip.begin(), cells.slip.end());
-	slipRate.assign(cells.slipRate.begin(), cells.slipRate.end());
-	normalStress.assign(cells.normalStress.begin(), cells.normalStress.end());
-	lawState.assign(cells.state.begin(), cells.state.end());
 }
 
 py::list SlipSurfaceMat::columns() const
@@ -257,11 +256,11 @@ py::object SlipSurfaceMat::cellTable(const string& name)
 	if (geometry.count() == 0 && !slip.empty()) open(*Omega::instance().getScene(), lawStep); // loaded
 	const size_t        count = geometry.count();
 	std::vector<double> rows;
-	if (name == "slip") rows.assign(slip.begin(), slip.end());
+	if (name == "slip") rows = cells.slip;
 	else if (name == "slip_rate")
-		rows.assign(slipRate.begin(), slipRate.end());
+		rows = cells.slipRate;
 	else if (name == "normal_stress")
-		rows.assign(normalStress.begin(), normalStress.end());
+		rows = cells.normalStress;
 	else if (name == "friction")
 		rows.assign(friction.begin(), friction.end());
 	else if (name == "begin" || name == "length")
@@ -281,7 +280,7 @@ py::object SlipSurfaceMat::cellTable(const string& name)
 			if (column.name != name) continue;
 			known = true;
 			for (size_t c = 0; c < count; ++c) {
-				const auto from = lawState.begin() + c * cells.stateWidth + column.offset;
+				const double* from = cells.stateOf(c) + column.offset;
 				rows.insert(rows.end(), from, from + column.width);
 			}
 		}

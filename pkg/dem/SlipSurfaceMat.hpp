@@ -35,6 +35,7 @@ public:
 		if (!surfaceLaw) makeLaw();
 		validate();
 	}
+	void preSave(SlipSurfaceMat&);
 
 	/// Cuts the walls into cells where that was not done, in a step of ContactDynamicsEngine and before its solve; h [s]. Throws std::runtime_error where
 	/// walls are not those that the cells were made of.
@@ -66,7 +67,7 @@ Cells are cut in the first step of :yref:`ContactDynamicsEngine`; the heat that 
 		((vector<vector<Real>>,lawValues,,(Attr::readonly|Attr::hidden),"Their values."))
 		((Real,cellLength,0,Attr::triggerPostLoad,"Length [m] of a cell along the wall; 0: eight mean diameters of the scene's disks."))
 		((Real,averagingSlip,0,Attr::triggerPostLoad,"Slip A [m] over which a cell's normal stress is a mean; 0: half the length of a cell."))
-		((vector<Real>,slip,,(Attr::readonly|Attr::hidden),"Slip of each cell [m]."))
+		((vector<Real>,slip,,(Attr::readonly|Attr::hidden),"Slip of each cell [m]; this and the next three are filled as the material is saved."))
 		((vector<Real>,slipRate,,(Attr::readonly|Attr::hidden),"Its slip rate V [m/s] in the last step."))
 		((vector<Real>,normalStress,,(Attr::readonly|Attr::hidden),"Its normal stress σ [Pa]."))
 		((vector<Real>,friction,,(Attr::readonly|Attr::hidden),"Its friction μ in force."))
@@ -92,7 +93,7 @@ private:
 	void findStrengths(Real h);
 
 	std::shared_ptr<nonsmooth::contact::slip::Law> surfaceLaw;
-	nonsmooth::contact::slip::Cells                cells; // what the attributes say, where the law wants it
+	nonsmooth::contact::slip::Cells                cells; // columns that are saved as attributes
 	nscd::WallCells                                geometry;
 	std::vector<Real>              pressedOf, weightOf, speedOf, meanSpeedOf, lostOf; // sums of the step, by cell
 	Real                           first = 0, averaging = 0, cutLength = 0;

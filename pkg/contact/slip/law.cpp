@@ -15,6 +15,15 @@ void Law::advance(Cells& cells, Range range) const
 		cells.slip[k] += cells.path[k];
 }
 
+double Law::friction()
+{
+	if (!(step > 0)) prepare(1); // at rest the step's length does not matter
+	constexpr double stress = 1e6;
+	Cells            one    = cells(1, stress);
+	strength(one, one.all());
+	return one.strength[0] / stress;
+}
+
 Cells Law::cells(std::size_t count, double normalStress) const
 {
 	Cells made;

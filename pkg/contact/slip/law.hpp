@@ -30,6 +30,8 @@ public:
 	/// Takes up a step that was made: Cells::path, heat and slipRate. After strength of the same step.
 	virtual void advance(Cells& cells, Range range) const;
 
+	/// μ before slip: τ/σ of a cell that has not slipped. The step in force stays.
+	double friction();
 	/// Cells under the stress σ [Pa] that have not slipped.
 	Cells cells(std::size_t count, double normalStress = 0) const;
 

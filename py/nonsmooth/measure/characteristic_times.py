@@ -17,8 +17,9 @@ Rules (Taboada and Estrada 2009, section 6; what they leave open is ours):
   happens to bear little, is none of triggering, and a t5 before t4 no rest. Such a time did not come, and
   :func:`missing` says why.
 
-Weakening begins where D_c is reached by one per cent of the disks that fit along the slip surfaces; where some lie one
-above another (stacks.py), along one of them, and T is then the shear force on that one. A slope that failed dry has t4
+Weakening begins where D_c is reached by one per cent of the disks that fit along the slip surfaces, or half of the
+friction is lost along one per cent of those with slip laws; where some lie one above another (stacks.py), along one of
+them, and T is then the shear force on that one. A slope that failed dry has t4
 and t5 of all of its rows. One second, 0.02 and 0.2 m/s, are those of the shipped section, and scaled for another
 (scales.py).
 """
@@ -73,7 +74,8 @@ NEEDED = {
 #: section), and shares of the largest mean speed for which it tells t5, in per cent.
 FASTER, RESTING = (50, 100, 200, 300, 400, 500), (2, 5, 10)
 LEVEL = 0.98  # of the strength of the foot
-WEAKENED = 0.01  # of the disks along the slip surfaces
+WEAKENED = 0.01  # of the disks along the slip surfaces, or of their length
+CELLS = "cells_weakened_rel"  # that length, where slip surfaces have slip laws
 FALLEN = 0.1  # of the shear force that is left at t3
 SAME = 1e-9  # s, of one row's time
 
@@ -83,7 +85,7 @@ def columns(section) -> tuple[str, ...]:
     own = (
         records.column(name, surface) for surface in section.stacked for name in ("dp_shear_N_per_m", "weakened_disks")
     )
-    return (*COLUMNS, *own)
+    return (*COLUMNS, *own, *([CELLS] if section.heated_surfaces else ()))
 
 
 def chosen_rows(series, state):
@@ -208,6 +210,9 @@ def _weakening(series, section, state):
         enough = max(1.0, WEAKENED * length / math.sqrt(section.disks.mean_square))
         late = np.flatnonzero((series[column] >= enough) & (series["time_s"] >= state["t0"]))
         found += [(float(series["time_s"][late[0]]), surface)] if len(late) else []
+    if CELLS in series:
+        late = np.flatnonzero((series[CELLS] >= WEAKENED) & (series["time_s"] >= state["t0"]))
+        found += [(float(series["time_s"][late[0]]), None)] if len(late) else []
     return min(found, key=lambda one: one[0], default=(None, None))
 
 

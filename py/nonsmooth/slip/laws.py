@@ -103,10 +103,7 @@ class SlipLaw:
 
     def friction(self):
         """Friction [-] before slip."""
-        self._law.prepare(1.0)
-        one = self._law.cells(1, 1e6)
-        self._law.strength(one)
-        return float(one.strength[0]) / 1e6
+        return self._law.friction()
 
     def cells(self, count=1, normal_stress=0.0):
         """``count`` cells under a stress [Pa] that have not slipped.

@@ -100,7 +100,8 @@ def wall_material(m, **others):
     if m.slip_law is not None:  # which says what friction is
         law = m.slip_law.make()
         friction = dict(frictionAngle=math.atan(law.friction()), residualFrictionAngle=-1.0)
-        return material(m, SlipSurfaceMat, **{**options, **friction, "law": law, **others})
+        options |= dict(law=law, cellLength=m.slip_law.cell_length)
+        return material(m, SlipSurfaceMat, **{**options, **friction, **others})
     weak = m.slip_weakening
     if weak is None:
         return material(m, **{**options, **others})

@@ -236,6 +236,7 @@ def test_all_losses_are_columns():
         ("studies.slope.columns", "ERODING"),
         ("studies.slope.columns", "LEDGER_COLUMNS"),
         ("studies.slope.columns", "SURFACE_COLUMNS"),
+        ("studies.slope.columns", "OF_SURFACES"),
         ("studies.laboratory.biaxial_test", "COLUMNS"),
         ("studies.laboratory.tension_test", "COLUMNS"),
         ("studies.laboratory.wall_shear", "COLUMNS"),

@@ -119,6 +119,21 @@ def test_a_block_loses_its_strength_as_one_cell_does(critical, most, dt):
     assert reached(rows, 0.1) == pytest.approx(math.log(10) * critical, rel=0.05)
 
 
+@pytest.mark.parametrize("critical, most", [(1.0634, 1000), (5.0, 2000)])
+def test_half_the_step_and_half_the_cell_change_little(critical, most):
+    """Slip and speed where 10 % are left: by less than 2 %, the most that numbers of this kind are quoted to."""
+    found = []
+    for dt, length in ((0.01, 0.0), (0.005, 0.0), (0.01, 8.0)):  # a cell of eight diameters has 16 m
+        O.reset()
+        m = wall(law=law(critical), cellLength=length)
+        ids, way = block(m)
+        O.dt = dt
+        found.append((reached(course(ids, way, m, most, share=0.1), 0.1), O.bodies[ids[0]].state.vel.norm()))
+        assert np.mean(surface.cells(m)["length_m"]) == pytest.approx(length or 16.0, rel=0.05)
+    for other in found[1:]:
+        assert other == pytest.approx(found[0], rel=0.02)
+
+
 def test_heat_is_what_sliding_loses():
     m = wall()
     ids, way = block(m)

@@ -164,7 +164,7 @@ def _surface_law(raw, document, keys) -> SurfaceLaw:
     try:
         if laws and "friction" not in given and any(one.key == "friction" for one in slip_laws.parameters(*laws)):
             given["friction"] = float(raw["friction"])
-        made = SurfaceLaw(laws, asked.get("set"), tuple(given.items()))
+        made = SurfaceLaw(laws, asked.get("set"), tuple(given.items()), float(asked.get("cell_length", 0)))
         friction = made.make().friction()
     except slip_laws.SlipError as error:
         document.refuse((*keys, "slip_law"), str(error), "scripts/sliding_block.py --list tells laws and sets")

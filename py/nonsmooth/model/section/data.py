@@ -114,7 +114,8 @@ def surface_law(law) -> dict:
     """The keys and values of a SurfaceLaw in a section file."""
     found = {"set": law.set} if law.set is not None else {"law": list(law.law)}
     values = {key: list(value) if isinstance(value, tuple) else value for key, value in law.parameters}
-    return found | ({"parameters": values} if values else {})
+    found |= {"parameters": values} if values else {}
+    return found | ({"cell_length": law.cell_length} if law.cell_length else {})
 
 
 def write(section, path):

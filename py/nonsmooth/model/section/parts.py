@@ -51,12 +51,14 @@ class SurfaceLaw:
     """Law of a wall whose friction is found in cells along it, as disks slide and it heats (paper, section 4.3).
 
     `law`: names of laws that share a zone, none with `set`, the name of a shipped set of parameters; `parameters`:
-    (key, number or tuple of numbers), of the laws, or those of the set that differ.
+    (key, number or tuple of numbers), of the laws, or those of the set that differ; `cell_length` [m] of a cell along
+    the wall, 0: eight mean diameters of the disks.
     """
 
     law: tuple[str, ...] = ()
     set: str | None = None
     parameters: tuple[tuple[str, float | tuple[float, ...]], ...] = ()
+    cell_length: float = 0.0
 
     def make(self) -> slip_laws.SlipLaw:
         """The law. Raises SlipError for names, keys and values that do not fit."""

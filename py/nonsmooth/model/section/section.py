@@ -144,6 +144,11 @@ class Section:
         """The walls whose material has a slip law, which has cells along them."""
         return tuple(wall for wall in self.walls if self.materials[wall.material].slip_law is not None)
 
+    @property
+    def heated_surfaces(self) -> tuple[Wall, ...]:
+        """Those of them that are slip surfaces."""
+        return tuple(wall for wall in self.with_slip_law if wall.role == "slip")
+
     @cached_property
     def slip_surfaces(self) -> tuple[tuple[str, np.ndarray], ...]:
         """Name and line (n, 2) [m] of each slip surface, in the order of :attr:`sliding`."""

@@ -8,6 +8,7 @@ __all__ = [
     "FURTHER",
     "LEDGER_COLUMNS",
     "OF_SHAKING",
+    "OF_SURFACES",
     "PERMANENT",
     "RELEASED",
     "SURFACE_COLUMNS",
@@ -128,8 +129,15 @@ ERODING = declared(
     Column("eroded_shift_y_m", "m", "the same, y"),
 )
 
+#: Of ``series.csv`` besides, where slip surfaces have slip laws, means over their cells by length: {name: Column}.
+OF_SURFACES = declared(
+    Column("cells_slip_m", "m", "mean slip of the cells along slip surfaces with slip laws, since the slope settled"),
+    Column("cells_friction_rel", "1", "mean friction of these cells, in parts of that before slip"),
+    Column("cells_weakened_rel", "1", "share of their length where friction is below half of that before slip"),
+)
+
 #: All that the series of some sections have besides: {name: Column}.
-FURTHER = OF_SHAKING | {PERMANENT.name: PERMANENT} | ERODING
+FURTHER = OF_SHAKING | {PERMANENT.name: PERMANENT} | ERODING | OF_SURFACES
 
 #: Of ``eroded.csv``, the ledger, a row for each disk that was taken out: {name: Column}.
 LEDGER_COLUMNS = declared(

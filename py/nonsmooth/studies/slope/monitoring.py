@@ -17,7 +17,7 @@ from ...model import scales
 from ...records.columns import without
 from ...world import tables
 from . import slope
-from .columns import COLUMNS, ERODING, OF_SHAKING, PERMANENT, RELEASED
+from .columns import COLUMNS, ERODING, OF_SHAKING, OF_SURFACES, PERMANENT, RELEASED
 from .eroding import Eroding
 from .error import ExperimentError
 from .surface_series import SurfaceSeries
@@ -81,6 +81,7 @@ class SlopeMonitor:
         self.by_dilatancy = self.section.water is not None and self.section.water.release is not None
         if self.by_dilatancy:
             self.columns = self.columns | {RELEASED.name: RELEASED}
+        self.columns |= OF_SURFACES if self.section.heated_surfaces else {}
 
     def open_walls(self, path, mark=None):
         """Opens the file of walls, and returns its WallSeries; ``mark``: of a checkpoint."""
@@ -244,8 +245,7 @@ class SlopeMonitor:
         e, water, section = self.slope.solver, self.slope.water, self.section
         self.walls.there = self._there(np.arange(self.slope.count), disks)
         forces, of_surfaces = self.walls.take()
-        if self.surfaces is not None:
-            self.surfaces.take()
+        of_cells = self.surfaces.take() if self.surfaces is not None else {}
         dp, fb, ss = forces["slip"], forces["backstop"], forces["ground"]
         total = water.totalForce if water else (0.0, 0.0, 0.0)
         normal = (section.water_table or section).normal
@@ -293,6 +293,7 @@ class SlopeMonitor:
             row |= self._of_surface(name, force, share)
         if section.shaking is not None:
             row |= self._of_shaking(disks)
+        row |= of_cells
         return row | self._of_solver(state, e) if self.hard else row
 
     def _of_surface(self, name, force, u):

@@ -10,9 +10,11 @@ from yade import O
 
 from ... import records
 from ...slip import surface
-from .columns import SURFACE_COLUMNS
+from .columns import OF_SURFACES, SURFACE_COLUMNS
 
-__all__ = ["SurfaceSeries"]
+__all__ = ["SurfaceSeries", "means"]
+
+WEAKENED = 0.5  # of the friction before slip
 
 
 class SurfaceSeries:
@@ -26,16 +28,33 @@ class SurfaceSeries:
             wall.name: (built.wall_material(wall.name), materials[wall.material].slip_law.make())
             for wall in built.section.with_slip_law
         }
+        self._sliding = [(wall.name, materials[wall.material].friction) for wall in built.section.heated_surfaces]
         self.file = records.SeriesWriter(path, SURFACE_COLUMNS, resume_from=mark, overwrite=True)
 
     def take(self):
-        """Writes the rows of the present step."""
-        self.file.write(*(row for name, (material, law) in self._walls.items() for row in _rows(name, material, law)))
+        """Writes the rows of the present step; returns the columns :data:`.columns.OF_SURFACES` of the slip surfaces,
+        {name: value}, none where no slip surface has a slip law."""
+        cells = {name: surface.cells(material) for name, (material, _) in self._walls.items()}
+        self.file.write(*(row for name, (_, law) in self._walls.items() for row in _rows(name, cells[name], law)))
+        return means([(cells[name], friction) for name, friction in self._sliding]) if self._sliding else {}
 
 
-def _rows(name, material, law):
+def means(cells):
+    """Columns :data:`.columns.OF_SURFACES` of walls, each as (its cells, friction before slip): {name: value}. What has
+    no cells yet has not slipped.
+    """
+    length, slip, left = (
+        np.concatenate(parts)
+        for parts in zip(*((c["length_m"], c["slip_m"], c["friction"] / friction) for c, friction in cells))
+    )
+    if not len(length):
+        return dict(zip(OF_SURFACES, (0.0, 1.0, 0.0), strict=True))
+    found = (slip, left, left < WEAKENED)
+    return {name: float(np.average(one, weights=length)) for name, one in zip(OF_SURFACES, found, strict=True)}
+
+
+def _rows(name, found, law):
     """A row for each cell of a wall."""
-    found = surface.cells(material)
     middle = found["ends_m"].mean(axis=1)
     columns = {
         "cell": np.arange(len(middle)),

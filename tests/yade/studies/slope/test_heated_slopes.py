@@ -7,6 +7,7 @@ import pytest
 from yade.nonsmooth import experiment, runs, section, similar, worlds
 from yade.nonsmooth.model.section import data as section_data
 from yade.nonsmooth.studies.safety.asked import Asked, SafetyError
+from yade.nonsmooth.studies.slope.surface_series import means
 
 pytestmark = pytest.mark.usefixtures("empty")
 ZONE = {
@@ -65,6 +66,66 @@ def test_the_slope_fails_and_its_surface_is_heated_by_what_sliding_loses(slid):
     assert np.all(end["hottest_degC"] >= end["temperature_degC"]) and np.isnan(cells["melt_m"]).all()
     assert np.all(end["pressure_Pa"] >= 0) and run.frame("slip_surface").shape == (len(cells["step"]), 16)
     assert len(run.figure("slip_surface").axes) == 4  # two panels with their scales
+
+
+def test_the_series_tells_how_much_of_the_surface_is_weak(slid):
+    """As its cells have it, by their length; so weakening is known to have begun."""
+    folder, _, told = slid
+    run = runs.open_run(folder)
+    cells, series = run.slip_surface, run.series
+    rows = len(series["time_s"])
+    length, slip, left = (
+        cells[name].reshape(rows, -1) for name in ("length_m", "slip_m", "friction")
+    )  # every row has all cells
+    left = left / 0.6
+    for name, values in (
+        ("cells_slip_m", slip),
+        ("cells_friction_rel", left),
+        ("cells_weakened_rel", left < 0.5),
+    ):
+        expected = (values * length).sum(axis=1) / length.sum(axis=1)
+        assert series[name] == pytest.approx(expected, rel=1e-6, abs=1e-12), name  # numbers as they are written
+        assert run.columns[name].unit == ("m" if name.endswith("_m") else "1")
+    assert series["cells_weakened_rel"][0] == 0 and series["cells_weakened_rel"][-1] > 0.1
+    assert not series["weakened_disks"].any()
+    assert told["times_missing"].get("t3") != "no slip surface weakened"
+
+
+def test_ground_with_a_slip_law_is_no_slip_surface(tmp_path):
+    made = heated(surface={"rolling_friction": 0.1})
+    made["materials"]["ground"] |= {"slip_law": {"law": "thermal_pressurization", "parameters": ZONE}}
+    run = experiment.begin(section.of(made), tmp_path / "run")
+    run.run(end=0.1)
+    found = runs.open_run(tmp_path / "run")
+    assert len(found.slip_surface["cell"]) and "cells_slip_m" not in found.series
+
+
+def test_means_are_by_length():
+    """Two walls, of one cell of 1 m and of cells of 2 and 5 m."""
+    one = {"length_m": np.array([1.0]), "slip_m": np.array([8.0]), "friction": np.array([0.15])}
+    other = {"length_m": np.array([2.0, 5.0]), "slip_m": np.array([4.0, 0.0]), "friction": np.array([0.3, 0.4])}
+    assert means([(one, 0.6), (other, 0.4)]) == {
+        "cells_slip_m": pytest.approx(2.0),
+        "cells_friction_rel": pytest.approx((0.25 + 2 * 0.75 + 5) / 8),
+        "cells_weakened_rel": pytest.approx(1 / 8),
+    }
+    none = {name: np.array([]) for name in one}
+    assert list(means([(none, 0.6)]).values()) == [0.0, 1.0, 0.0]
+
+
+def test_cells_have_the_length_that_a_section_gives_them(tmp_path):
+    made = heated()
+    made["materials"]["surface"]["slip_law"]["cell_length"] = 40.0
+    run = experiment.begin(section.of(made), tmp_path / "run")
+    run.run(end=0.1)
+    length = runs.open_run(tmp_path / "run").slip_surface["length_m"]
+    whole = section.of(made).of_role("slip")[0].points
+    whole = np.hypot(*np.diff(whole, axis=0).T).sum()
+    assert length[0] == pytest.approx(whole / round(whole / 40.0), rel=1e-3)
+    for wrong in (0, -1, "long"):
+        made["materials"]["surface"]["slip_law"]["cell_length"] = wrong
+        with pytest.raises(section.SectionError, match="cell_length"):
+            section.of(made)
 
 
 def test_a_run_goes_on_from_its_checkpoint_with_the_same_bytes(slid, tmp_path):
@@ -166,6 +227,7 @@ def test_a_mirrored_slope_has_mirrored_cells(tmp_path):
 
 
 def test_it_is_written_down_as_it_is(tmp_path):
-    made = section.of(heated(set="vaiont", parameters={"friction": 0.6, "thickness": 0.0014}))
+    made = section.of(heated(set="vaiont", parameters={"friction": 0.6, "thickness": 0.0014}, cell_length=25.0))
+    assert made.materials["surface"].slip_law.cell_length == 25.0
     section_data.write(made, tmp_path / "section.yaml")
     assert section.load(str(tmp_path / "section.yaml")).materials == made.materials

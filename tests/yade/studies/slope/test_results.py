@@ -143,6 +143,18 @@ def test_weakening_begins_with_a_hundredth_of_the_disks_along_the_plane(diameter
     assert characteristic_times.weakening_begins(series, section, STATE | {"failed_dry": 3.0}) is None
 
 
+@pytest.mark.parametrize("share, found", [(0.0101, 32.0), (0.0099, None)])
+def test_cells_of_slip_laws_weaken_a_slope_without_weakened_disks(share, found):
+    """From 32 s on; before t0 it does not count."""
+    series = changed(weakened_disks=lambda t: 0 * t)
+    t = series["time_s"]
+    series["cells_weakened_rel"] = np.select([t < 9, t < 32 - 1e-9], [1.0, 0.0], share)
+    series = characteristic_times.chosen_rows(series, STATE)
+    assert characteristic_times.weakening_begins(series, SHIPPED, STATE) == found
+    times = characteristic_times.of_run(series, SHIPPED, STATE)
+    assert times == pytest.approx(TIMES if found else TIMES | {"t3": None}, abs=1e-9)
+
+
 def test_a_slope_that_weakened_and_stopped_has_t3_after_t2():
     """Its shear force was nothing while it weakened, 32 to 33 s; it moved for good at 34 s."""
     series = changed(
