@@ -11,6 +11,7 @@ an object that has such ``walls``; see :mod:`nonsmooth.measure.ground`. Data tha
 from .controls import forces_against_water, speeds, with_and_without
 from .forces import force_chains, forces_against_time
 from .erosion import erosion
+from .heated_slopes import heated_slopes
 from .law import bond_zone, contact_law, water_forces
 from .markers import markers
 from .moving import animate, record, recording
@@ -42,6 +43,7 @@ __all__ = [
     "releases",
     "energy",
     "erosion",
+    "heated_slopes",
     "means",
     "runouts",
     "shaking",

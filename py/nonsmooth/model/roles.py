@@ -64,14 +64,13 @@ def assigned(section):
 
 def chord(lines):
     """The vector (x, y) [m] along which polylines, each of shape (n, 2) [m], fall from end to end, added up; a level
-    one counts to the right.
+    one goes to the side of those that fall, and where none does to the right.
     """
+    ways = [points[-1] - points[0] for points in lines if len(points) > 1]
+    side = -1.0 if sum(np.sign(-way[1]) * way[0] for way in ways) < 0 else 1.0
     total = np.zeros(2)
-    for points in lines:
-        if len(points) < 2:
-            continue
-        way = points[-1] - points[0]
-        total += -way if way[1] > 0 or (way[1] == 0 and way[0] < 0) else way
+    for way in ways:
+        total += -way if way[1] > 0 or (way[1] == 0 and side * way[0] < 0) else way
     return total
 
 

@@ -56,3 +56,45 @@ def test_where_nothing_has_slipped_there_is_no_figure():
         figures.slip_surface(still)
     with pytest.raises(records.RecordsError, match="slip_surface.csv"):
         figures.slip_surface({"wall": []})
+
+
+# ---- slopes beside each other ---------------------------------------------------------------------
+
+
+def run_of(decay, begin=10.0):
+    """A slope that settles for 5 s, slides from ``begin`` on, and loses its friction as exp(−slip/decay)."""
+    t = np.arange(0.0, 31.0)
+    late = np.maximum(t - begin, 0)
+    slip = np.where(t < 5, 7.0, late**2)
+    return {
+        "time_s": t,
+        "stage": np.where(t < 5, 0, 2),
+        "speed_mean_m_per_s": np.where(t < 5, 3.0, late),
+        "cells_slip_m": slip,
+        "cells_friction_rel": np.exp(-slip / decay),
+    }
+
+
+def test_slopes_that_heat_have_friction_by_slip_and_speed_by_time():
+    """Those of one label have one colour and one word; what settling has slipped is left out."""
+    fig = figures.heated_slopes([("thick", run_of(5.0)), ("thin", run_of(1.0, 12.0)), ("thick", run_of(4.0))])
+    left, right = fig.axes
+    assert left.get_xscale() == "log" and left.get_xlim()[0] == 0.01 and left.get_ylim() == (0, 1.05)
+    assert [t.get_text() for t in left.get_legend().get_texts()] == ["thick", "thin"]
+    one, other, third = left.lines
+    assert drawn.colour(one) == drawn.colour(third) != drawn.colour(other) and len(right.lines) == 3
+    assert drawn.points(one) == pytest.approx(
+        np.array([(late**2, np.exp(-(late**2) / 5)) for late in np.arange(1.0, 21.0)])
+    )
+    # it moves at 0.1 m/s 0.1 s after it begins
+    assert drawn.points(right.lines[1]) == pytest.approx(np.array([(late - 0.1, late) for late in np.arange(1.0, 19.0)]))
+    assert right.get_xlim() == pytest.approx((0, 19.9))
+    assert right.get_xlabel() == "time since it moved at 0.1 m/s [s]" and left.get_xlabel() == "mean slip [m]"
+    assert left.get_ylabel() == "friction by that before slip" and right.get_ylabel() == "mean speed [m/s]"
+
+
+def test_slopes_that_stand_are_left_out_and_alone_they_are_refused():
+    still = run_of(5.0, begin=99.0)
+    assert len(figures.heated_slopes([("a", still), ("b", run_of(5.0))]).axes[0].lines) == 1
+    with pytest.raises(records.RecordsError, match="no slope has moved at 0.1 m/s; give at least one that did"):
+        figures.heated_slopes([("a", still)])

@@ -15,9 +15,10 @@ from contact_scenes import without_contacts
 from yade import O
 from yade.minieigenHP import Vector3
 from yade.nonsmooth import contact, scene, tables
-from yade.nonsmooth.judges.benchmark import cold_start, report, sweeps
+from yade.nonsmooth.judges.benchmark import cold_start, report, slip_laws, sweeps
 from yade.nonsmooth.measure import statistics
 from yade.nonsmooth.records import checkpoints
+from yade.nonsmooth.slip import surface
 from yade.nonsmooth.soft import bonds as soft_bonds
 from yade.nonsmooth.studies.comparison import cost
 from yade.nonsmooth.studies.slope import states
@@ -128,6 +129,28 @@ def test_all_that_is_promised_is_there_and_a_number(measured):
         assert name in summary["machine"]
     for what in report.HEADLINES.values():
         assert what in printed
+
+
+def test_slopes_with_slip_laws_do_what_those_without_do(measured, tmp_path, monkeypatch):
+    """Which are so made that friction stays: after ten steps of the moving slope disks are where they are without."""
+    home, found = measured
+    told = found[0][0]["slip_laws"]
+    assert told["cells"] > 10 and len(told["given_ms"]) == len(told["found_ms"]) == 3
+    monkeypatch.setenv("XDG_CACHE_HOME", str(home / "cache"))
+    places = []
+    for make in (slip_laws._given, slip_laws._found):
+        states.load(str(home / "quick.yaml"), DISKS, "moving")
+        materials = slip_laws._on_walls(make)
+        assert {b.material.id for b in O.bodies if not isinstance(b.shape, Sphere)} == {m.id for m in materials}
+        stepping.advance(10)
+        places.append(np.array([tuple(b.state.pos) for b in O.bodies]))
+        if make is slip_laws._found:
+            cells = [surface.cells(m) for m in materials]
+            friction, slip = (np.concatenate([c[name] for c in cells]) for name in ("friction", "slip_m"))
+            # a zone of a kilometre heats by some millionths of a degree
+            assert friction == pytest.approx(slip_laws.FRICTION, rel=1e-4) and slip.max() > 0.01
+    size = np.mean([b.shape.radius for b in O.bodies if isinstance(b.shape, Sphere)])
+    assert np.abs(places[0] - places[1]).max() < 1e-4 * size
 
 
 def test_stages_add_up_to_the_step(measured):

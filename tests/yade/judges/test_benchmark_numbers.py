@@ -6,7 +6,7 @@ import _nonsmooth_contact
 import numpy as np
 import pytest
 from yade.nonsmooth import contact
-from yade.nonsmooth.judges.benchmark import report, scale, steps, sweeps
+from yade.nonsmooth.judges.benchmark import report, scale, slip_laws, steps, sweeps
 from yade.nonsmooth.studies.slope import measuring as course, states
 
 ONE = 1000  # contacts of the problem
@@ -94,6 +94,7 @@ def found(made_up):
             steps_of("soft", 2, 2.0, 1e-3, collide=2.5),
         ],
         "sweeps": sweeps.measure("", str(ONE), 3),
+        "slip_laws": {"over_step": {"median": 0.02, "quartiles": [0.01, 0.04], "mean": 0.3}, "cells": 9},
         "cold_start": {
             name: dict(contacts=7, sweeps=n, share_of_weight=0.98, sweeps_tight=900, residual_tight=1e-8)
             for name, n in (("slope", 230), ("lmgc90", 330))
@@ -113,6 +114,7 @@ def test_headlines_follow_from_their_parts(found):
     assert told["correction_over_step_moving"] == pytest.approx(0.2)
     assert told["stage_ms"]["moving"] == dict(solve=6.0, correct=2.0, collide=2.0)
     assert told["cold_sweeps_to_1e-4"] == 230 and told["warm_sweeps_mean"] == 18.0
+    assert told["slip_law_over_step"] == 0.02 and told["quartiles"]["slip_law_over_step"] == [0.01, 0.04]
     assert told["sweep_ns_per_contact"] == pytest.approx(10_000)
     assert told["sweep_speedup_over_scalar"] == pytest.approx(4)
     assert told["fraction_of_bandwidth_bound"] == pytest.approx(
@@ -133,6 +135,33 @@ def test_the_printed_table_says_the_headlines_with_their_words(found):
     (step,) = (row for row in rows if row.startswith("step  "))
     # with their quartiles, by state and threads in the order measured
     assert re.split(r"\s{2,}", step)[1:] == [f"{ms} ({0.9 * ms:.3g} … {1.2 * ms:.3g})" for ms in (50, 60, 5, 6, 9, 2)]
+
+
+def test_what_slip_laws_add_is_told_turn_by_turn(monkeypatch):
+    """Steps of 10 and 11 ms, 20 and 20, 10 and 12: each is set beside that of its own turn, and turns begin with either."""
+    took = {"given": iter((10.0, 20.0, 10.0)), "found": iter((11.0, 20.0, 12.0))}
+    order, now = [], []
+
+    class Timed:
+        def run(self, count):
+            assert count == 40
+            return self
+
+        def summary(self):
+            return {"step_ms": {"median": next(took[now[-1]])}}
+
+    def on_walls(make):
+        now.append({slip_laws._given: "given", slip_laws._found: "found"}[make])
+        return [type("M", (), {"cellCount": lambda self: 7})()] * 2
+
+    monkeypatch.setattr(slip_laws.states, "load", lambda *asked: order.append(asked))
+    monkeypatch.setattr(slip_laws, "_on_walls", on_walls)
+    monkeypatch.setattr(slip_laws.steps, "TimedSteps", Timed)
+    found = slip_laws.measure("", "jiufengershan", 300, 40, 3)
+    assert order == [("jiufengershan", 300, "moving")] * 6
+    assert now == ["given", "found", "found", "given", "given", "found"]
+    assert (found["given_ms"], found["found_ms"], found["cells"]) == ([10.0, 20.0, 10.0], [11.0, 20.0, 12.0], 14)
+    assert found["over_step"]["median"] == pytest.approx(0.1) and found["over_step"]["mean"] == pytest.approx(0.1)
 
 
 def test_a_block_of_steps_is_divided_by_their_number(monkeypatch):

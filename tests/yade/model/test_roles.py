@@ -29,12 +29,12 @@ def nameless(data):
 
 
 def test_walls_fall_whichever_way_their_vertices_stand():
-    """Each from its upper end; a level one counts to the right."""
+    """Each from its upper end; a level one counts to the right, or to the side of those that fall."""
     falls, level = np.array([(0.0, 3.0), (4.0, 0.0)]), np.array([(1.0, 2.0), (6.0, 2.0)])
     for line, way in ((falls, (4, -3)), (level, (5, 0))):
         assert roles.chord([line]) == pytest.approx(way) and roles.chord([line[::-1]]) == pytest.approx(way)
     left = falls * (-1, 1)
-    assert roles.chord([left, level[::-1], falls[:1]]) == pytest.approx((1, -3))
+    assert roles.chord([left, level[::-1], falls[:1]]) == pytest.approx((-9, -3))
 
 
 def test_roles_follow_from_what_walls_do_and_not_from_their_names(tmp_path):
@@ -114,6 +114,17 @@ def test_a_slope_falls_along_the_chords_of_its_slip_surfaces(tmp_path):
         circle.downslope == pytest.approx((-90 / math.hypot(90, 40), -40 / math.hypot(90, 40)))
         and circle.normal[1] > 0 > circle.normal[0]
     )
+
+
+@pytest.mark.parametrize("side", [1, -1])
+@pytest.mark.parametrize("turned", [False, True])
+def test_a_level_slip_surface_goes_with_those_that_fall(side, turned):
+    """A back from (-60, 40) to (-20, 0) and a level seat up to the origin; drawn from either end."""
+    back, seat = np.array([(-60.0, 40.0), (-20.0, 0.0)]), np.array([(-20.0, 0.0), (0.0, 0.0)])
+    lines = [one[:: -1 if turned else 1] * (side, 1) for one in (seat, back)]
+    assert roles.chord(lines).tolist() == [60.0 * side, -40.0]
+    assert roles.dip_of(*roles.chord(lines)) == pytest.approx(side * math.degrees(math.atan2(40, 60)))
+    assert roles.chord(lines[:1]).tolist() == [20.0, 0.0]  # alone, to the right
 
 
 @pytest.mark.parametrize("name", section.shipped())

@@ -569,6 +569,11 @@ WHERE = {
         lambda m: m.wall("DP").law[1]["thickness"],
         [0.002],
     ),
+    ("materials", "*", "slip_law", "cell_length"): (
+        heated(set="vaiont", cell_length=3.5),
+        lambda m: m.wall("DP").cellLength,
+        3.5,
+    ),
     ("materials", "*", "envelope", "cohesion"): ({(*ROCK, "envelope", "cohesion"): 4e3}, passive, (4e3, 35.0)),
     ("materials", "*", "envelope", "friction_deg"): (
         {(*ROCK, "envelope", "friction_deg"): 30.0},

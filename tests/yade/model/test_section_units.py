@@ -80,10 +80,10 @@ def test_a_density_of_water_is_told_up_to_the_heaviest_fluids():
 @pytest.mark.parametrize("name", section.shipped())
 def test_bounds_go_with_the_size_of_a_slope(name):
     """What a slope of metres may have is no kPa: strengths are set beside its weight, and the shipped sections are
-    slopes at all sizes and on the moon.
+    slopes at all sizes and on the moon; but one with a slip law that heats has no similar one.
     """
     shipped = section.load(name)
-    for factor in (1e-4, 0.01, 10.0):
+    for factor in (1e-4, 0.01, 10.0) if not shipped.with_slip_law else ():
         similar.scaled(shipped, factor)
     shipped.with_values({"gravity": 1.62})
 

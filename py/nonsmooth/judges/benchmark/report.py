@@ -23,6 +23,7 @@ HEADLINES = {
     "outside_solve_over_solve/moving": "the same while the slope moves",
     "correction_over_step": "of a step, taking back errors of position, mean over mean",
     "correction_over_step_moving": "the same while the slope moves",
+    "slip_law_over_step": "what slip laws on all walls add to a step while the slope moves, over one without",
     "warm_sweeps_mean": "sweeps of a step, mean",
     "cold_sweeps_to_1e-4": "sweeps to a residual of 1e-4 from zero",
 }
@@ -52,6 +53,7 @@ def summarise(found) -> dict:
         "sweep_speedup_two_threads": sweeps["speedup_two_threads"],
         "step_ms": rest["step_ms"],
         "soft_step_ms": soft["step_ms"],
+        "slip_law_over_step": found["slip_laws"]["over_step"],
     }
     return {
         **{name: s["median"] for name, s in spreads.items()},

@@ -7,20 +7,23 @@ from dataclasses import dataclass
 from ...studies.slope import states
 from ...studies.slope.measuring import MeasuringCourse
 from ...system import machine
-from . import cold_start, steps, sweeps
+from . import cold_start, slip_laws, steps, sweeps
 
 __all__ = ["FULL", "QUICK", "Effort", "run"]
 
 
 @dataclass(frozen=True)
 class Effort:
-    """How often things are repeated: timed steps of a run, and turns of the sweeps' paths."""
+    """How often things are repeated: timed steps of a run, turns of the sweeps' paths, and turns with and without slip
+    laws.
+    """
 
     steps: int
     repeats: int
+    turns: int
 
 
-FULL, QUICK = Effort(200, 30), Effort(60, 10)
+FULL, QUICK = Effort(200, 30, 9), Effort(60, 10, 3)
 
 
 def run(out, source, disks, threads, effort, progress=lambda share, doing: None):
@@ -39,11 +42,11 @@ def run(out, source, disks, threads, effort, progress=lambda share, doing: None)
         "steps": 2 + 0.01 * effort.steps * per_thousand,
         "sweeps": 5 + 0.06 * effort.repeats * per_thousand,
         "cold": 5 + 0.5 * per_thousand,
+        "slip-laws": 2 + 2 * effort.turns * (1 + 0.01 * effort.steps * per_thousand),
     }
     counts = sorted({1, threads})
-    course = MeasuringCourse(
-        out, seconds["states"] + 3 * len(counts) * seconds["steps"] + seconds["sweeps"] + 2 * seconds["cold"], progress
-    )
+    total = seconds["states"] + 3 * len(counts) * seconds["steps"] + seconds["sweeps"] + 2 * seconds["cold"]
+    course = MeasuringCourse(out, total + seconds["slip-laws"], progress)
     found = {
         "machine": machine.describe(),
         "section": source,
@@ -64,6 +67,13 @@ def run(out, source, disks, threads, effort, progress=lambda share, doing: None)
                 count,
             )
             found["steps"].append({"state": state, "threads": count, **timed})
+    found["slip_laws"] = course.call(
+        "slip-laws",
+        seconds["slip-laws"],
+        slip_laws.measure,
+        {**subject, "count": effort.steps, "turns": effort.turns},
+        threads,
+    )
     problem = str(course.home / "steps-rest-1" / "step.h5")
     found["sweeps"] = course.call(
         "sweeps", seconds["sweeps"], sweeps.measure, {"problem": problem, "repeats": effort.repeats}, 2

@@ -55,6 +55,7 @@ def test_shipped_sections_are_listed(in_process):
         ("rain", 500, 5.0),
         ("reservoir", 500, 5.0),
         ("undercut", 400, 3.2),
+        ("vaiont", 400, 12.0),
     ],
 )
 def test_every_shipped_section_begins(name, disks, end, in_process, monkeypatch, tmp_path):

@@ -2,9 +2,14 @@
 bytes, what is written and drawn, and what is refused.
 """
 
+import json
+
 import numpy as np
 import pytest
+import shell
+import yaml
 from yade.nonsmooth import experiment, runs, section, similar, worlds
+from yade.nonsmooth.measure import heated_surface
 from yade.nonsmooth.model.section import data as section_data
 from yade.nonsmooth.studies.safety.asked import Asked, SafetyError
 from yade.nonsmooth.studies.slope.surface_series import means
@@ -231,3 +236,40 @@ def test_it_is_written_down_as_it_is(tmp_path):
     assert made.materials["surface"].slip_law.cell_length == 25.0
     section_data.write(made, tmp_path / "section.yaml")
     assert section.load(str(tmp_path / "section.yaml")).materials == made.materials
+
+
+def test_the_script_that_compares_slip_laws(tmp_path):
+    """Of zones of 1 and of 5 cm, two packings each: what it tells is what its runs have."""
+    (tmp_path / "heated.yaml").write_text(yaml.safe_dump(heated()))
+    lines = (
+        "section key values labels disks seeds folder",
+        f"'{tmp_path}/heated.yaml' 'materials.surface.slip_law.parameters.thickness' [0.01,0.05] None 150 2 '{tmp_path}/out'",
+    )
+    (tmp_path / "zones.table").write_text("\n".join(lines) + "\n")
+    done = shell.run(
+        "yade-nonsmooth",
+        shell.SCRIPTS / "examples" / "heated_slopes.py",
+        limit=300,
+        cwd=tmp_path,
+        YADE_BATCH=f"{tmp_path}/zones.table:2",
+    )
+    assert done.returncode == 0, done.stderr
+    told = json.loads((tmp_path / "out" / "heated.json").read_text())
+    assert {name: (one["packings"], one["failed"]) for name, one in told.items()} == {"0_01": (2, 2), "0_05": (2, 2)}
+    for value, key in ((0.01, "0_01"), (0.05, "0_05")):
+        of_runs = [
+            runs.open_run(tmp_path / "out" / "runs" / f"thickness={value}_seed={seed}") for seed in (1, 2)
+        ]
+        lost = [heated_surface.lost(run.series, 0.5) for run in of_runs]
+        numbers = told[key]["when_failed"]
+        assert numbers["slip_m_50"]["mean"] == pytest.approx(np.mean([one["slip_m"] for one in lost]))
+        assert numbers["after_s_50"]["mean"] == pytest.approx(np.mean([one["after_s"] for one in lost]))
+        assert numbers["front_travel_m"]["mean"] == pytest.approx(
+            np.mean([run.summary["front_travel_m"] for run in of_runs])
+        )
+        assert f"{value}: 2 of 2 failed by water" in done.stdout
+    # a thick zone takes more slip, and D_c goes with its thickness
+    thin, thick = (told[key]["when_failed"]["slip_m_50"]["mean"] for key in ("0_01", "0_05"))
+    assert thick > 2 * thin
+    for name in ("heated", "slip_surface"):
+        assert (tmp_path / "out" / f"{name}.png").stat().st_size > 1000
