@@ -12,6 +12,16 @@ SAME = {
         "m.bondEllipseTwisting <= 0",
     ): "0 is refused where it is set",
     (
+        "py/nonsmooth/studies/comparison/answers.py",
+        'cheaper = found["factor"] if found["factor"] > 1 else 1 / found["factor"]',
+        'cheaper = found["factor"] if found["factor"] >= 1 else 1 / found["factor"]',
+    ): "1 and 1/1 are the same",
+    (
+        "py/nonsmooth/studies/laboratory/table1.py",
+        "threads=1,",
+        "threads=2,",
+    ): "a choice: how many samples at a time where nobody says it; results have the same bits",
+    (
         "py/nonsmooth/studies/comparison/biaxials.py",
         'SOURCE, DISKS = "wwr", 1000',
         'SOURCE, DISKS = "wwr", 1001',

@@ -131,6 +131,19 @@ def test_the_whole_slope_is_drawn_by_layers(slope, chains):
         assert drawn.texts(figures.force_chains(later, WALLS, title=title))[0].startswith(begins)
 
 
+def test_windows_show_all_disks_that_reach_into_them(slope):
+    """Also those whose centres lie outside; what is two radii off is not drawn."""
+    x, y = (part.ravel() for part in np.meshgrid(np.arange(-99.5, 60.0, 2.1), np.arange(0.5, 60.0, 2.1)))
+    many = synthetic.few(x, y, [(0, 1, 4e6)])
+    for window in figures.force_chains(many, WALLS).axes[1:]:
+        (x0, x1), (y0, y1) = window.get_xlim(), window.get_ylim()
+        centres = drawn.disks(window)[0]
+        away = np.hypot(x - np.clip(x, x0, x1), y - np.clip(y, y0, y1))
+        shown = {tuple(c) for c in centres}
+        assert {(a, b) for a, b, far in zip(x, y, away) if far < 1.0} <= shown
+        assert len(shown) < len(x) and max(np.hypot(a - np.clip(a, x0, x1), b - np.clip(b, y0, y1)) for a, b in shown) < 3
+
+
 def test_windows_are_where_their_frames_are(chains):
     top, *windows = chains.axes
     frames = [patch for patch in top.patches if not patch.get_fill()]

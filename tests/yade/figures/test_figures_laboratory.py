@@ -2,6 +2,7 @@
 YADE.
 """
 
+import itertools
 import math
 
 import numpy as np
@@ -121,6 +122,10 @@ def test_a_cycle_has_its_three_curves_its_phases_and_its_chains():
     after = synthetic.few([0.0, 2.0, 4.0], [0.0, 0.0, 3.0], [(0, 1, 1e5), (1, 2, -1e5)])
     fig = cycle_figure.cycle(series, rows, before, after, "three disks")
     curves, (left, right) = fig.axes[:3], fig.axes[3:]
+    fig.draw_without_rendering()
+    places = [ax.get_position() for ax in fig.axes]
+    assert not any(a.overlaps(b) for a, b in itertools.combinations(places, 2))
+    assert places[0].x1 < places[3].x0 < places[3].x1 < places[4].x0 and places[0].y0 > places[1].y1 > places[2].y1
     labels = ("σ₁ − σ₃ [MPa]", "volumetric strain [%]\n(dilation positive)", "kinetic energy [kJ/m]")
     columns = (1e-6 * stress, 10 * strain, 1e-3 * series["energy_kinetic_J"])
     shown = (strain > 0.0379) & (strain < 0.0631)  # 0.2 % to each side

@@ -253,6 +253,9 @@ def test_level_water_lifts_alone():
     assert set(at_disk) == {INK, GREEN, BLUE} and set(summed) == {GREEN, BLUE}
     assert summed[GREEN][1] == pytest.approx(summed[BLUE][1], **exact)
     assert not any("beta" in t or t == "$F_s$" for ax in fig.axes for t in drawn.texts(ax))
+    assert {"$W$", "$F_b$", "$F_p$"} <= set(drawn.texts(fig.axes[0]))
+    tilted = figures.water_forces(21.0)
+    assert {"$W$", "$F_b$", "$F_s$", "$F_p$"} <= set(drawn.texts(tilted.axes[0]))
 
 
 # ---- all ------------------------------------------------------------------------------------------

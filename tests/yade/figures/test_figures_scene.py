@@ -152,6 +152,19 @@ def test_walls_of_a_scene_are_written_for_paraview(tmp_path):
         and sorted(lines[2, :, 0]) == pytest.approx([-4 - 0.1 * 8, 4 + 0.1 * 8])
         and len(lines) == 3
     )
+    O.bodies.append(utils.wall((5, 0, 0), axis=0, material=O.materials[1]))
+    found = meshio.read(paraview.write_scene_walls(O, tmp_path / "walls.vtu"))
+    lines = found.points[found.cells[0].data][:, :, :2]
+    (upright,) = [line for line in lines if (line[:, 0] == 5).all()]
+    # those of the level wall's ends are across, and not up: from the lowest to the highest of disks and segments
+    known = np.concatenate(
+        [
+            *scene_arrays.read(O).walls,
+            *([[b.state.pos[0], b.state.pos[1] + s * b.shape.radius]] for b in O.bodies if hasattr(b.shape, "radius") for s in (1, -1)),
+        ]
+    )
+    low, high = known[:, 1].min(), known[:, 1].max()
+    assert sorted(upright[:, 1]) == pytest.approx([low - 0.1 * (high - low), high + 0.1 * (high - low)])
 
 
 def test_an_empty_scene_is_refused_and_axes_of_ones_own_are_taken(tmp_path):

@@ -321,6 +321,13 @@ def test_other_samples_than_the_tables_are_noted():
         other["disks"][key] = value
         (note,) = [note for note in section_checks.notes(_large(other)) if "was measured on" in note]
         assert said in note and "biaxial.py" in note
+    # nor are disks of a layer of another material asked
+    other = copy.deepcopy(data)
+    other["materials"]["fill"] = {"friction": 0.5, "rolling_friction": 0.1, "bonded": False, "density": 2000.0}
+    other["layers"][1] |= {"material": "fill", "disks": {"diameter": [0.1, 0.3]}}
+    assert not any("was measured on" in note for note in section_checks.notes(_large(other)))
+    other["layers"][1]["material"] = "rock"
+    assert any("was measured on" in note for note in section_checks.notes(_large(other)))
 
 
 def _large(data):

@@ -2,7 +2,9 @@
 
 import dataclasses
 import datetime
+import itertools
 import math
+import re
 import sys
 from pathlib import Path
 
@@ -464,6 +466,21 @@ def test_line_of_a_number_that_replaces_a_borrowed_one(refused):
 def test_line_number(refused):
     text = TEXT.replace("distribution: uniform", "distribution: even")
     assert f"line {1 + text[:text.index('distribution: even')].count(chr(10))}: disks.distribution" in refused(text)
+
+
+WRONG = {"gravity": -1, "walls__0__role": "slope", "layers__0__name": 3, "seed": "one", "numerics__path": -2}
+
+
+@pytest.mark.parametrize("pair", itertools.combinations(WRONG, 2))
+def test_of_two_errors_the_one_that_stands_first_is_told(pair, refused):
+    text = changed(**{key: WRONG[key] for key in pair})
+    lines = {}
+    for key in pair:  # where each stands, as it is told when it is alone
+        alone = refused(changed(**{key: WRONG[key]}))
+        lines[int(re.search(r"line (\d+)", alone)[1])] = alone.partition(": line")[2].partition(": ")[2]
+    told = refused(text)
+    assert told.endswith("(and 1 more to correct)")
+    assert f"line {min(lines)}: {lines[min(lines)]}" in told
 
 
 @pytest.mark.parametrize(

@@ -486,6 +486,21 @@ def test_forces_of_overlapping_disks_by_hand(bent):
     assert other._forces()[1] == pytest.approx([-0.16, 0.16, 0], abs=1e-12)
 
 
+def test_disks_move_alike_along_both_axes(monkeypatch):
+    """Twenty disks in a square, which are moved as far as twenty sweeps do it, and the same with x for y."""
+    dice = np.random.default_rng(4)
+    x, y = dice.uniform(1.0, 9.0, (2, 20))
+    r, table = dice.uniform(0.7, 1.3, 20), geometry.edges(geometry.Polygon([(0, 0), (10, 0), (10, 10), (0, 10)]))
+    monkeypatch.setattr(packing, "SWEEPS", 20)
+    found = []
+    for places in ((x, y), (y, x)):
+        one = packing._Relaxer(*places, r.copy(), np.zeros(20, int), [(table, None)], np.random.default_rng(1))
+        one.run()
+        found.append((one.x, one.y))
+    assert np.hypot(found[0][0] - x, found[0][1] - y).max() > 0.3
+    assert found[0][0] == pytest.approx(found[1][1], abs=1e-9) and found[0][1] == pytest.approx(found[1][0], abs=1e-9)
+
+
 def test_the_more_squeezed_larger_one_changes_places():
     """Radii 1, 1.5, 3 and 4 m, in pairs of like size: the first pair changes places, since its larger disk is squeezed
     by more than it is larger; the other one is of two layers.

@@ -76,17 +76,23 @@ def test_still_water_is_still_in_the_ground_and_over_it():
     assert found == pytest.approx(deep, abs=1e-6) and deep.any() and not deep.all()
 
 
-def bank():
-    """A bank of 20 m between two lakes."""
+def bank(x=0.0):
+    """A bank of 20 m between two lakes, with its middle at ``x``."""
     rock = {"friction": 0.5, "rolling_friction": 0.1, "bonded": False, "density": 2000.0}
     ground = {"friction": 0.5, "rolling_friction": 0.1, "bonded": False}
-    left, right = [[-40.0, 0.0], [-10.0, 20.0]], [[10.0, 20.0], [40.0, 0.0]]
+    base, layer, left, right = (
+        [[x + along, y] for along, y in line]
+        for line in (
+            [(-60.0, 0.5), (-40.0, 0.0), (40.0, 0.0), (60.0, -0.5)],
+            [(-40.0, 0.0), (40.0, 0.0), (10.0, 20.0), (-10.0, 20.0)],
+            [(-40.0, 0.0), (-10.0, 20.0)],
+            [(10.0, 20.0), (40.0, 0.0)],
+        )
+    )
     return section.of(
         name="bank",
-        walls=[
-            {"name": "base", "material": "ground", "vertices": [[-60.0, 0.5], [-40.0, 0.0], [40.0, 0.0], [60.0, -0.5]]}
-        ],
-        layers=[{"name": "bank", "material": "rock", "vertices": [[-40, 0], [40, 0], [10, 20], [-10, 20]]}],
+        walls=[{"name": "base", "material": "ground", "vertices": base}],
+        layers=[{"name": "bank", "material": "rock", "vertices": layer}],
         materials={"rock": rock, "ground": ground},
         disks={"diameter": [1.0, 2.0]},
         water={
@@ -101,13 +107,14 @@ def bank():
     )
 
 
-def test_two_reservoirs_stand_where_their_lines_are():
-    """A bank of 20 m between two lakes; what none of them names is open to air."""
-    made = bank()
+@pytest.mark.parametrize("x", [0.0, 70.0, -300.0])
+def test_two_reservoirs_stand_where_their_lines_are(x):
+    """A bank of 20 m between two lakes, wherever it is; what none of them names is open to air."""
+    made = bank(x)
     field = of_section.field(made)
-    places = [[-50.0, 3.0], [-35.0, 6.0], [50.0, 3.0], [35.0, 4.0], [50.0, 6.0], [-20.0, 15.5]]
+    places = np.array([[-50.0, 3.0], [-35.0, 6.0], [50.0, 3.0], [35.0, 4.0], [50.0, 6.0], [-20.0, 15.5]]) + (x, 0.0)
     assert field.pressure(places, 0.0, outside="dry") / 9810 == pytest.approx([12, 9, 2, 1, 0, 0], abs=1e-9)
-    heads = [float(field.pressure([[x, 0.5]])[0]) / 9810 + 0.5 for x in (-35.0, 0.0, 35.0)]
+    heads = [float(field.pressure([[x + along, 0.5]])[0]) / 9810 + 0.5 for along in (-35.0, 0.0, 35.0)]
     assert 15.0 >= heads[0] > heads[1] > heads[2] >= 5.0
 
 

@@ -179,6 +179,17 @@ def test_the_tables_tell_all_strains_of_peaks_and_no_mean_of_them():
     assert samples[0][2:4] == ["1.00, 2.10, 0.49", "1 of 3"] and samples[0][5] == "2, 2, 2"
 
 
+def test_a_line_of_samples_by_hand():
+    """Two samples with 1 to both sides of 24.25 MPa: Student's 12.706 of one degree of freedom is the interval."""
+    one = {"strain_peak": 0.0104, "deviator_peak_MPa": 23.25, "bands_at_1_percent": 2, "residual_deg": {}}
+    other = {"strain_peak": 0.0021, "deviator_peak_MPa": 25.25, "bands_at_1_percent": 1, "residual_deg": {}}
+    for sample, angle in ((one, 26.0), (other, 28.0)):
+        sample["residual_deg"] = dict.fromkeys(reading_numbers.WINDOWS, angle)
+    found = reading_numbers._of_samples([one, other])
+    assert found[:4] == ["1.04, 0.21", "1 of 2", "24.2 ± 12.7", "2, 1"]
+    assert found[4:] == ["27.0 ± 12.7"] * len(reading_numbers.WINDOWS)
+
+
 def test_what_each_sample_says_by_hand(tmp_path):
     """Two pressures, whose circles touch the line of 50 kPa and 30°; stresses over 4 to 6 and 8 to 10 % of strain are
     those of steps, of which half a window is one step and half another.
