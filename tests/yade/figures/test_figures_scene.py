@@ -104,6 +104,28 @@ def test_materials_are_told_apart_in_the_order_in_which_they_come():
     assert scene_arrays.read(O).material.tolist() == [0, 1, 2, 3, 1, 0]
 
 
+@pytest.mark.parametrize("colours", [True, False])
+def test_a_scene_that_is_kept_in_a_file_is_the_same(colours, tmp_path):
+    held()
+    if colours:
+        O.bodies[2].shape.color = (0.1, 0.2, 0.3)
+        for b in list(O.bodies)[3:]:
+            b.shape.color = (0.7, 0.2, 0.3)
+    O.bodies.append(utils.wall((0, -1, 0), axis=1, material=O.materials[1]))
+    one = scene_arrays.read(O)
+    scene_arrays.save(one, tmp_path / "scene.npz")
+    other = scene_arrays.load(tmp_path / "scene.npz")
+    assert list(vars(one)) == list(vars(other)) and one.axes == other.axes and len(one.cn)
+    for name, value in vars(one).items():
+        if value is None:
+            assert getattr(other, name) is None, name
+        else:
+            assert np.array_equal(np.array(value), np.array(getattr(other, name))), name
+    (tmp_path / "scene.npz").write_bytes(b"no archive")
+    with pytest.raises(records.RecordsError, match="is no scene that can be read"):
+        scene_arrays.load(tmp_path / "scene.npz")
+
+
 def test_soft_scenes_and_yades_own_walls_are_drawn():
     stuff = CohFrictMat(young=1e7, poisson=0.3, density=2500, frictionAngle=0.5, normalCohesion=1e6, shearCohesion=1e6)
     O.bodies.append([utils.sphere((0, 0.999 * k, 0), 0.5, material=stuff) for k in range(2)])

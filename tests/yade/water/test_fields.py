@@ -169,6 +169,14 @@ def test_a_unit_weight_without_sense():
 
 def test_a_line_on_a_mesh_has_its_pressures_at_the_nodes():
     line = PhreaticLine([[(0, 2.5), (4, 1.5)], [(0, 5), (4, 5)]], (0, 60))
+    # a field whose time is not said is that of the beginning
+    point, mesh = [[1.0, 0.5]], line.on(MESH)
+    for field in (line, mesh):
+        for ask in (field.pressure, field.gradient):
+            assert np.array_equal(ask(point), ask(point, 0.0)) and not np.array_equal(ask(point), ask(point, 1.0))
+    assert np.array_equal(line.heights([1.0])[0], line.heights([1.0], 0.0)[0])
+    assert line.heights([1.0])[0] != line.heights([1.0], 1.0)[0]
+    assert np.array_equal(mesh.gradients(), mesh.gradients(0.0)) and not np.array_equal(mesh.gradients(), mesh.gradients(1.0))
     f = line.on(MESH)
     assert np.array_equal(f.times, (0, 60))
     assert f.at(0) == pytest.approx(9810 * (2.5 - MESH.nodes[:, 0] / 4 - MESH.nodes[:, 1]))
