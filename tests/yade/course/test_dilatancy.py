@@ -44,6 +44,9 @@ def test_what_is_released_already_stays_where_no_dilation_is_known():
     """A share that a disk has from elsewhere is not taken back."""
     share, largest = dilatancy.released(np.array([0.6]), NONE, np.array([0.01]), 0.04)
     assert share == 0.6 and largest == 0.01
+    # nor does water come back in a look that took no time
+    share, _ = dilatancy.released(np.array([0.6]), np.array([0.01]), np.array([0.01]), 0.04, drainage_time=2.0)
+    assert share == 0.6
 
 
 def test_water_flows_back_in_the_drainage_time():

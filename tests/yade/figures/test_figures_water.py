@@ -87,6 +87,15 @@ def test_the_layers_of_a_section_are_drawn():
     (ring,) = (one for one in lines(fig.axes[0], style.INK) if len(one) == len(s.layers[0].vertices) + 1)
     assert np.array_equal(ring[:-1], s.layers[0].points)
 
+    def rims(fig):
+        found = [c for c in fig.axes[0].collections if isinstance(c, LineCollection)]
+        return [c for c in found if to_hex(c.get_color()[0]) == to_hex(style.INK)]
+
+    assert rims(fig) == []
+    # without a section the border of the mesh is drawn
+    (rim,) = rims(water.seepage(dam(10)))
+    assert np.array_equal(np.array(rim.get_segments()), MESH.nodes[MESH.border]) and len(MESH.border) == 60
+
 
 def test_what_cannot_be_drawn(tmp_path):
     field = fields.of_seepage(dam(10))

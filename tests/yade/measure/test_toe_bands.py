@@ -158,6 +158,13 @@ def test_the_toe_is_drawn_by_rotation_with_its_bands():
     # edges of bands are whole, the directions that Rankine has are dotted and orange
     looks = [(one.get_linestyle() == ":", one.get_color()) for one in ax.lines if one.get_linewidth() == 1.8]
     assert sorted(looks) == [(False, style.INK)] * 4 + [(True, style.LINES["orange"])] * 2
+    # edges of a band are as far apart as it is wide, in mean diameters of the toe's disks
+    size = 2 * np.sqrt(np.mean(before.r[toe_bands.toe(before, SHIPPED)[0]] ** 2))
+    edges = [e for e, (dotted, _) in zip(lines, looks) if not dotted]
+    for band, (one, other) in zip(toe_bands.find(before, after, SHIPPED), (edges[:2], edges[2:])):
+        way = (one[1] - one[0]) / np.hypot(*(one[1] - one[0]))
+        apart = abs(np.cross(way, other[0] - one[0]))
+        assert apart == pytest.approx(band.width * size, rel=1e-9)
     slopes = sorted(np.degrees(np.arctan2(*(np.abs((e[1] - e[0]) @ way) for way in (normal, down)))) for e in lines)
     assert slopes[:2] == pytest.approx([25, 25], abs=1e-6) and slopes[2:4] == pytest.approx([THRUST] * 2, abs=3)
     # counterclockwise is red: of the conjugate, and blue of the other
