@@ -57,7 +57,6 @@ def find(x, y, bonds, strengths, friction, bottom, top):
     graph = csr_matrix((capacity, (rows, columns)), shape=(n + 2, n + 2))
     flow = maximum_flow(graph, n, n + 1)
     left = graph - flow.flow
-    left.data[left.data < 0] = 0
     left.eliminate_zeros()
     reached = np.zeros(n + 2, bool)
     reached[breadth_first_order(left, n, return_predecessors=False)] = True

@@ -144,6 +144,15 @@ def test_windows_show_all_disks_that_reach_into_them(slope):
         assert len(shown) < len(x) and max(np.hypot(a - np.clip(a, x0, x1), b - np.clip(b, y0, y1)) for a, b in shown) < 3
 
 
+def test_the_scale_of_a_window_is_a_round_length_of_a_sixth_at_most(chains):
+    for window in chains.axes[1:]:
+        (bar,) = [one for one in window.lines if one.get_transform() == window.transAxes and one.get_linewidth() == 3]
+        long = np.ptp(bar.get_xdata()) * np.ptp(window.get_xlim())
+        assert 0.17 / 2.6 < np.ptp(bar.get_xdata()) <= 0.17  # the next round one is 2.5 times as long at most
+        (words,) = [t for t in drawn.texts(window) if t.endswith(" m")]
+        assert float(words.removesuffix(" m")) == pytest.approx(long, rel=1e-9)
+
+
 def test_windows_are_where_their_frames_are(chains):
     top, *windows = chains.axes
     frames = [patch for patch in top.patches if not patch.get_fill()]

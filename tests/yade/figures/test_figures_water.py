@@ -97,6 +97,13 @@ def test_the_layers_of_a_section_are_drawn():
     assert np.array_equal(np.array(rim.get_segments()), MESH.nodes[MESH.border]) and len(MESH.border) == 60
 
 
+def test_the_frame_is_a_fiftieth_wider_than_the_mesh_wherever_that_is():
+    away = Mesh.of(MESH.nodes + (1000.0, 300.0), MESH.triangles)
+    solved = seepage.solve(away, 1e-5, [Head([(1000, 300), (1000, 310)], 308), Head([(1020, 300), (1020, 310)], 303)])
+    ax = water.seepage(solved).axes[0]
+    assert ax.get_xlim() == pytest.approx((1000 - 0.4, 1020 + 0.4)) and ax.get_ylim() == pytest.approx((299.6, 310.4))
+
+
 def test_what_cannot_be_drawn(tmp_path):
     field = fields.of_seepage(dam(10))
     for call, message in (

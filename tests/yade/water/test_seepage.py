@@ -196,6 +196,19 @@ def test_rain_that_the_ground_does_not_take_runs_off():
     assert math.fsum(np.concatenate((result.exchanged, result.given))) == pytest.approx(0, abs=1e-10 * result.through)
 
 
+def test_what_flows_through_a_body_is_what_rain_brings_and_a_face_lets_out():
+    """40 m of a hill under rain of 2e-7 m/s, which leaves on a face to the right; misfits are told by it."""
+    mesh, rain = grid(np.linspace(0, 40, 21), np.linspace(0, 10, 11)), 2e-7
+    given = [Rain([(0, 10), (40, 10)], rain), SeepageFace([(40, 0), (40, 10)])]
+    result = seepage.solve(mesh, 1e-5, given)
+    tensors = np.broadcast_to(1e-5 * np.eye(2), (len(mesh.triangles), 2, 2))
+    problem = equations.Equations(mesh, tensors, conditions.apply(mesh, given))
+    assert problem.flow(result.head, 1e-3) == pytest.approx(rain * 40, rel=1e-6)
+    higher = result.head + 1e-6  # off by a little: of each node's balance
+    worst = np.abs(problem.parts(higher, 1e-3)[0][problem.free]).max()
+    assert problem.residual(higher, 1e-3) == pytest.approx(worst / problem.flow(higher, 1e-3), rel=1e-12)
+
+
 def test_rain_falls_on_the_horizontal_and_inflow_goes_through_the_line():
     """A slope of 3 in 4: its length is 5/4 of what rain sees; an overhang gets none."""
     square = grid(np.linspace(0, 4, 5), np.linspace(0, 2, 3))
