@@ -213,6 +213,19 @@ def test_what_the_table_cannot_give_is_one_message(rock, said):
     assert rock.get("friction_angle") != 75 or "calibrate.py" not in message
 
 
+def test_what_was_rounded_to_four_digits_is_within():
+    """By a thousandth beyond either end, and no more."""
+    friction = rock_of().friction
+    for share in (0.5, 1.0):
+        for off, taken in ((0.9, True), (1.5, False)):
+            value = share * friction * (1 + (-1 if share < 1 else 1) * off * 1e-3)
+            if taken:
+                assert rock_of(residual_friction=value).residual_friction == value
+            else:
+                with pytest.raises(section.SectionError, match="residual_friction: .* the table of calibrated rocks"):
+                    rock_of(residual_friction=value)
+
+
 def test_the_ends_of_the_interval_are_within():
     for angle in (LOW, HIGH):
         assert rock_of(friction_angle=angle).friction > 0
