@@ -162,8 +162,8 @@ class NearTests:
             elif isinstance(node, ast.Constant) and isinstance(node.value, str):
                 said = re.fullmatch(r"(?:yade\.)?nonsmooth\.([\w.]+)|(\w+)\.py", node.value)
                 name = next(filter(None, said.groups()), "") if said else node.value.strip(".") if by_name else ""
-                if within:
-                    before.add(f"{within}.")
+                if within:  # of the package itself, or beside the module: a script that it starts
+                    before |= {f"{within}.", f"{within.rpartition('.')[0]}."}
                 used |= {self.public[name]} if name in self.public else set()
                 used |= {f"{one}{name}" for one in before if name and f"{one}{name}" in self.modules}
         return used

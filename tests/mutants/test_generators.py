@@ -363,6 +363,8 @@ def checkout(tmp_path, monkeypatch):
         "py/nonsmooth/lonely_part.py": "",
         "py/nonsmooth/sub/__init__.py": "from .inside import thing\n",
         "py/nonsmooth/sub/inside.py": "thing = 1\n",
+        "py/nonsmooth/sub/starts.py": "WORKER = Path(__file__).with_name('_worker.py')\n",
+        "py/nonsmooth/sub/_worker.py": "",
         "scripts/run_c.py": "from nonsmooth import c\n",
         "pkg/dem/Wall.cpp": '.def("touch", &Wall::touch)\n',
         "tests/yade/conftest.py": "from nonsmooth import a, b, c\n",
@@ -373,6 +375,7 @@ def checkout(tmp_path, monkeypatch):
         "tests/yade/test_c.py": 'call("run_c.py")\n',
         "tests/yade/test_face.py": "from nonsmooth.sub import thing\n",
         "tests/yade/test_helped.py": "import helper\n",
+        "tests/yade/test_starts.py": "from nonsmooth.sub import starts\n",
         "tests/yade/test_wall.py": "Wall().touch()\n",
         "tests/yade/test_walls_more.py": "Wall(), Wall(), Wall()\n",
         "tests/yade/test_named.py": "",
@@ -403,6 +406,7 @@ def test_who_imports_a_module_judges_it_and_the_nearest_first(checkout):
 def test_scripts_faces_and_helpers_are_ways_to_a_module(checkout):
     assert checkout.of("py/nonsmooth/c.py") == ["test_c.py"]
     assert set(checkout.of("py/nonsmooth/sub/inside.py")) == {"plain:test_face.py", "test_helped.py"}
+    assert checkout.of("py/nonsmooth/sub/_worker.py") == ["plain:test_starts.py"]  # which a module beside it starts
     assert checkout.of("py/nonsmooth/lonely_part.py") == []
 
 

@@ -49,6 +49,10 @@ def test_numbers_in_rows_that_begin_with_a_word_are_read():
     assert lessons.numbers(text) == {"rows": [[0.0, 100.0, 100.0, 0.02], [100.0, 25.0, 24.9999]], "steps": 4501}
 
 
+def test_a_single_number_behind_a_gap_is_no_row():
+    assert lessons.numbers("final height [m]   1.25\n") == {"final_height_m": 1.25}
+
+
 def test_all_pairs_of_scripts_are_lessons_of_the_command():
     from yade.nonsmooth import campaign
 
