@@ -21,11 +21,7 @@ SAME = {
         "threads=1,",
         "threads=2,",
     ): "a choice: how many samples at a time where nobody says it; results have the same bits",
-    (
-        "py/nonsmooth/water/section_seepage.py",
-        "if state.rain:",
-        "if True:",
-    ): "a rain of 0 m/s brings nothing",
+    ("py/nonsmooth/water/section_seepage.py", "if state.rain:", "if True:"): "a rain of 0 m/s brings nothing",
     (
         "py/nonsmooth/studies/comparison/biaxials.py",
         'SOURCE, DISKS = "wwr", 1000',

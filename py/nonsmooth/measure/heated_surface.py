@@ -43,7 +43,9 @@ def rows(series) -> dict:
     """
     missing = [name for name in COLUMNS if name not in series]
     if missing:
-        raise RecordsError(f"the series has no column {missing[0]}; give that of a slope whose slip surface has a slip_law")
+        raise RecordsError(
+            f"the series has no column {missing[0]}; give that of a slope whose slip surface has a slip_law"
+        )
     return since_settled(series)
 
 

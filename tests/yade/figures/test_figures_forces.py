@@ -141,7 +141,9 @@ def test_windows_show_all_disks_that_reach_into_them(slope):
         away = np.hypot(x - np.clip(x, x0, x1), y - np.clip(y, y0, y1))
         shown = {tuple(c) for c in centres}
         assert {(a, b) for a, b, far in zip(x, y, away) if far < 1.0} <= shown
-        assert len(shown) < len(x) and max(np.hypot(a - np.clip(a, x0, x1), b - np.clip(b, y0, y1)) for a, b in shown) < 3
+        assert (
+            len(shown) < len(x) and max(np.hypot(a - np.clip(a, x0, x1), b - np.clip(b, y0, y1)) for a, b in shown) < 3
+        )
 
 
 def test_the_scale_of_a_window_is_a_round_length_of_a_sixth_at_most(chains):

@@ -182,7 +182,12 @@ def test_walls_of_a_scene_are_written_for_paraview(tmp_path):
     known = np.concatenate(
         [
             *scene_arrays.read(O).walls,
-            *([[b.state.pos[0], b.state.pos[1] + s * b.shape.radius]] for b in O.bodies if hasattr(b.shape, "radius") for s in (1, -1)),
+            *(
+                [[b.state.pos[0], b.state.pos[1] + s * b.shape.radius]]
+                for b in O.bodies
+                if hasattr(b.shape, "radius")
+                for s in (1, -1)
+            ),
         ]
     )
     low, high = known[:, 1].min(), known[:, 1].max()

@@ -87,7 +87,9 @@ def test_slopes_that_heat_have_friction_by_slip_and_speed_by_time():
         np.array([(late**2, np.exp(-(late**2) / 5)) for late in np.arange(1.0, 21.0)])
     )
     # it moves at 0.1 m/s 0.1 s after it begins
-    assert drawn.points(right.lines[1]) == pytest.approx(np.array([(late - 0.1, late) for late in np.arange(1.0, 19.0)]))
+    assert drawn.points(right.lines[1]) == pytest.approx(
+        np.array([(late - 0.1, late) for late in np.arange(1.0, 19.0)])
+    )
     assert right.get_xlim() == pytest.approx((0, 19.9))
     assert right.get_xlabel() == "time since it moved at 0.1 m/s [s]" and left.get_xlabel() == "mean slip [m]"
     assert left.get_ylabel() == "friction by that before slip" and right.get_ylabel() == "mean speed [m/s]"

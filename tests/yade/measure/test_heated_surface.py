@@ -79,7 +79,9 @@ def test_numbers_of_a_run():
         for name in ("after_s", "slip_m", "speed_m_per_s", "temperature_degC", "hottest_degC")
     ]
     assert found["friction_rel"] == 0.04
-    assert [found[f"{name}_10"] for name in ("after_s", "slip_m", "speed_m_per_s")] == pytest.approx([2.95, 9, 6], **near)
+    assert [found[f"{name}_10"] for name in ("after_s", "slip_m", "speed_m_per_s")] == pytest.approx(
+        [2.95, 9, 6], **near
+    )
     assert (found["temperature_degC_10"], found["hottest_degC_10"]) == (17.5, 25.0)  # at 13 s
     assert (found["temperature_degC_5"], found["hottest_degC_5"]) == (70.0, 75.0)
     stiff = heated.numbers(series(cells_friction_rel=lambda t: 1.0 - 0.3 * (t > 12)), CELLS, ["a"])
@@ -92,5 +94,7 @@ def test_numbers_of_a_run():
 def test_a_series_without_cells_is_refused():
     plain = {name: values for name, values in series().items() if not name.startswith("cells")}
     for ask in (heated.begin, heated.rows, lambda s: heated.lost(s, 0.1)):
-        with pytest.raises(records.RecordsError, match="no column cells_slip_m; give that of a slope whose slip surface has"):
+        with pytest.raises(
+            records.RecordsError, match="no column cells_slip_m; give that of a slope whose slip surface has"
+        ):
             ask(plain)

@@ -176,7 +176,9 @@ def test_a_line_on_a_mesh_has_its_pressures_at_the_nodes():
             assert np.array_equal(ask(point), ask(point, 0.0)) and not np.array_equal(ask(point), ask(point, 1.0))
     assert np.array_equal(line.heights([1.0])[0], line.heights([1.0], 0.0)[0])
     assert line.heights([1.0])[0] != line.heights([1.0], 1.0)[0]
-    assert np.array_equal(mesh.gradients(), mesh.gradients(0.0)) and not np.array_equal(mesh.gradients(), mesh.gradients(1.0))
+    assert np.array_equal(mesh.gradients(), mesh.gradients(0.0)) and not np.array_equal(
+        mesh.gradients(), mesh.gradients(1.0)
+    )
     f = line.on(MESH)
     assert np.array_equal(f.times, (0, 60))
     assert f.at(0) == pytest.approx(9810 * (2.5 - MESH.nodes[:, 0] / 4 - MESH.nodes[:, 1]))

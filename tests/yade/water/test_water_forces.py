@@ -56,7 +56,10 @@ def test_dry_disks_bear_nothing_and_carry_no_water():
     found = forces.on_disks(line, X, Y, R, area="bulk", packing_fraction=PHI, pore_water=True)
     assert np.all(found[Y > 5] == 0) and found[Y < 5, 1] == pytest.approx(GAMMA * math.pi * R[Y < 5] ** 2, rel=1e-10)
     # a disk is wet as soon as its centre is: a hundredth of a millimetre below the line, at 0.1 Pa
-    near = [forces.on_disks(line, [9.0], [y], [1.0], area="bulk", packing_fraction=PHI, pore_water=True)[0, 1] for y in (4.99999, 5.00001)]
+    near = [
+        forces.on_disks(line, [9.0], [y], [1.0], area="bulk", packing_fraction=PHI, pore_water=True)[0, 1]
+        for y in (4.99999, 5.00001)
+    ]
     assert near == pytest.approx([GAMMA * math.pi, 0.0], rel=1e-10)
 
 

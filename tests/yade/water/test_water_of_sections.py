@@ -53,7 +53,10 @@ def test_a_rapid_drawdown_of_seeping_water_leaves_the_effective_stresses(drawn_d
 
 def test_a_rapid_drawdown_begins_from_the_state_before_it():
     """And not from that of the beginning, when the reservoir was low."""
-    low, full, bare = ({"time": t, **state} for t, state in ((0.0, {"reservoir": 20.0}), (2.0, {"reservoir": 120.0}), (4.0, {"drained": False})))
+    low, full, bare = (
+        {"time": t, **state}
+        for t, state in ((0.0, {"reservoir": 20.0}), (2.0, {"reservoir": 120.0}), (4.0, {"drained": False}))
+    )
     course, short = (of_section.field(seeping(*states)) for states in ((low, full, bare), (full, bare)))
     x = np.linspace(-150, -40, 23)
     places = np.column_stack((x, -x * math.tan(BETA) + 0.5 * drawdown.THICK))  # within the layer

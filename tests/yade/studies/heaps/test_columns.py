@@ -254,7 +254,9 @@ def test_sizes():
 
 def test_a_piles_aspect_is_its_height_over_half_of_its_width():
     width, height = pile.Pile(disks=300, aspect=1.4).box()
-    assert height == pytest.approx(1.4 * width / 2, rel=1e-12) and pile.Pile(disks=300, aspect=1.4).place() == -width / 2
+    assert (
+        height == pytest.approx(1.4 * width / 2, rel=1e-12) and pile.Pile(disks=300, aspect=1.4).place() == -width / 2
+    )
 
 
 def test_a_step_takes_the_fastest_disk_over_its_path():

@@ -83,11 +83,7 @@ def test_the_series_tells_how_much_of_the_surface_is_weak(slid):
         cells[name].reshape(rows, -1) for name in ("length_m", "slip_m", "friction")
     )  # every row has all cells
     left = left / 0.6
-    for name, values in (
-        ("cells_slip_m", slip),
-        ("cells_friction_rel", left),
-        ("cells_weakened_rel", left < 0.5),
-    ):
+    for name, values in (("cells_slip_m", slip), ("cells_friction_rel", left), ("cells_weakened_rel", left < 0.5)):
         expected = (values * length).sum(axis=1) / length.sum(axis=1)
         assert series[name] == pytest.approx(expected, rel=1e-6, abs=1e-12), name  # numbers as they are written
         assert run.columns[name].unit == ("m" if name.endswith("_m") else "1")
@@ -257,9 +253,7 @@ def test_the_script_that_compares_slip_laws(tmp_path):
     told = json.loads((tmp_path / "out" / "heated.json").read_text())
     assert {name: (one["packings"], one["failed"]) for name, one in told.items()} == {"0_01": (2, 2), "0_05": (2, 2)}
     for value, key in ((0.01, "0_01"), (0.05, "0_05")):
-        of_runs = [
-            runs.open_run(tmp_path / "out" / "runs" / f"thickness={value}_seed={seed}") for seed in (1, 2)
-        ]
+        of_runs = [runs.open_run(tmp_path / "out" / "runs" / f"thickness={value}_seed={seed}") for seed in (1, 2)]
         lost = [heated_surface.lost(run.series, 0.5) for run in of_runs]
         numbers = told[key]["when_failed"]
         assert numbers["slip_m_50"]["mean"] == pytest.approx(np.mean([one["slip_m"] for one in lost]))
