@@ -6,6 +6,7 @@ ZONE, PROFILE, WATER, FLASH = SLIP + "heated_zone.cpp", SLIP + "profile.cpp", SL
 REACTION, MELT, TABLE, MATERIAL = SLIP + "decomposition.cpp", SLIP + "shear_melting.cpp", SLIP + "tabulated.cpp", "pkg/dem/NscdMat.cpp"
 CELLS, GRID = "pkg/dem/SlipSurfaceMat.cpp", "pkg/dem/WallCells.cpp"
 SERIES, PICTURE = "py/nonsmooth/studies/slope/surface_series.py", "py/nonsmooth/figures/slip_surface.py"
+HEATED = "py/nonsmooth/measure/heated_surface.py"
 BUILDING, CHECKS = "py/nonsmooth/model/section/building.py", "py/nonsmooth/model/section/checks.py"
 BLOCK, SETS, FIGURE = ("py/nonsmooth/slip/block.py", "py/nonsmooth/slip/parameter_sets.py", "py/nonsmooth/figures/sliding_block.py")
 
@@ -80,6 +81,29 @@ MUTANTS = (
     mutant("surface-picture", PICTURE, "np.cumsum(length)", "np.arange(1.0, count + 1)", "cells are drawn as if they were one metre long", "plain:test_figures_slip_surface.py"),
     mutant("surface-law-friction", BUILDING, "if abs(raw[key] - friction) > 1e-5 * (1 + friction):", "if False:", "a wall has another friction than its law", "test_heated_slopes.py"),
     mutant("surface-law-water", CHECKS, "section.release_distance < x1 - x0", "False", "water goes where a law has its own pressure", "test_heated_slopes.py"),
+    mutant("surface-saved", CELLS, "slip.assign(cells.slip.begin(), cells.slip.end());", "", "what has slipped is not saved", "test_slip_surface.py"),
+    mutant("surface-friction", SLIP + "law.cpp", "if (!(step > 0)) prepare(1); // at rest the step's length does not matter", "prepare(1);",
+           "to ask for friction changes the step in force", "test_slip_laws.py"),
+    mutant("surface-weak", SERIES, "(slip, left, left < WEAKENED)", "(slip, left, left > WEAKENED)", "the strong part of a surface is called weak", "test_heated_slopes.py"),
+    mutant("surface-means", SERIES, "np.average(one, weights=length)", "np.mean(one)", "a short cell counts as much as a long one", "test_heated_slopes.py"),
+    mutant("surface-ground", "py/nonsmooth/model/section/section.py", 'for wall in self.with_slip_law if wall.role == "slip")', "for wall in self.with_slip_law)",
+           "ground with a slip law counts as a slip surface", "test_heated_slopes.py"),
+    mutant("surface-begins", "py/nonsmooth/measure/characteristic_times.py", '(series[CELLS] >= WEAKENED) & (series["time_s"] >= state["t0"])', "series[CELLS] >= WEAKENED",
+           "a surface that weakened while it settled weakens before the water", "test_results.py"),
+    mutant("surface-length", "py/nonsmooth/world/scene.py", "cellLength=m.slip_law.cell_length", "cellLength=0.0", "a section's cells have the length of any", "test_section_keys.py"),
+    # ---- slopes that heat
+    mutant("heated-after", HEATED, '"after_s": time - start', '"after_s": time', "time counts from the beginning of the run", "plain:test_heated_surface.py"),
+    mutant("heated-creep", HEATED, "np.flatnonzero(speed < BEGIN).max(initial=0)", "np.flatnonzero(speed >= BEGIN).min(initial=0)", "creep counts as the slide",
+           "plain:test_heated_surface.py"),
+    mutant("heated-walls", HEATED, 'now &= np.isin(cells["wall"], list(walls))', "pass", "the ground is as hot as the slip surface", "plain:test_heated_surface.py"),
+    mutant("heated-settling", HEATED, "return since_settled(series)", "return series", "what settling has done counts", "plain:test_heated_surface.py"),
+    mutant("heated-figure", "py/nonsmooth/figures/heated_slopes.py", 'series["time_s"][late] - time', 'series["time_s"][late]', "slopes begin at times of their own",
+           "plain:test_figures_slip_surface.py"),
+    mutant("heated-script", "scripts/examples/heated_slopes.py", "found[name] = [one[name] for one in of_surface]", "found[name] = [of_surface[0][name] for one in of_surface]",
+           "all packings have the numbers of the first", "test_heated_slopes.py"),
+    mutant("level-seat", "py/nonsmooth/model/roles.py", "(way[1] == 0 and side * way[0] < 0)", "(way[1] == 0 and way[0] < 0)", "a level slip surface goes to the right on a slope to the left",
+           "test_roles.py"),
+    mutant("slip-law-turns", "py/nonsmooth/judges/benchmark/slip_laws.py", "[:: 1 if turn % 2 == 0 else -1]", "", "one kind of walls is always timed first", "test_benchmark_numbers.py"),
     # ---- the block
     mutant("block-heat", BLOCK, "strength * path, after", "push * path, after", "heat is what the weight does", "test_slip_block.py", "verify:adiabatic-block"),
     mutant("block-up", BLOCK, "max(0.0, speed + gains * (push - strength))", "speed + gains * (push - strength)", "friction drives a block up the slope", "test_slip_block.py"),

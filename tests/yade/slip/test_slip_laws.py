@@ -68,6 +68,23 @@ def test_a_step_is_asked_for_before_it_is_taken():
         law.prepare(0)
 
 
+def test_to_ask_for_friction_changes_no_step():
+    """That of a law before slip, which may be asked for at any time."""
+    found = []
+    for asks in (False, True):
+        law = parameter_sets.law("vaiont")
+        cells = law.cells(1, 2e6)
+        law.prepare(0.25)
+        for _ in range(3):
+            if asks:
+                assert law.friction() == pytest.approx(0.4, rel=1e-12)
+            law.strength(cells)
+            cells.slip_rate[:], cells.path[:], cells.heat[:] = 2.0, 0.5, 0.5 * cells.strength
+            law.advance(cells)
+        found.append([float(cells.strength[0]), *cells.columns["temperature"][0], *cells.columns["pressure"][0]])
+    assert found[0] == found[1] and found[0][0] < 0.5 * 0.4 * 2e6
+
+
 def test_a_heated_zone_shows_its_profiles():
     law = parameter_sets.law("vaiont")
     cells = law.cells(2, [2e6][0])
