@@ -82,7 +82,7 @@ MUTANTS = (
     mutant("surface-law-friction", BUILDING, "if abs(raw[key] - friction) > 1e-5 * (1 + friction):", "if False:", "a wall has another friction than its law", "test_heated_slopes.py"),
     mutant("surface-law-water", CHECKS, "section.release_distance < x1 - x0", "False", "water goes where a law has its own pressure", "test_heated_slopes.py"),
     mutant("surface-saved", CELLS, "slip.assign(cells.slip.begin(), cells.slip.end());", "", "what has slipped is not saved", "test_slip_surface.py"),
-    mutant("surface-friction", SLIP + "law.cpp", "if (!(step > 0)) prepare(1); // at rest the step's length does not matter", "prepare(1);",
+    mutant("surface-asked", SLIP + "law.cpp", "if (!(step > 0)) prepare(1); // at rest the step's length does not matter", "prepare(1);",
            "to ask for friction changes the step in force", "test_slip_laws.py"),
     mutant("surface-weak", SERIES, "(slip, left, left < WEAKENED)", "(slip, left, left > WEAKENED)", "the strong part of a surface is called weak", "test_heated_slopes.py"),
     mutant("surface-means", SERIES, "np.average(one, weights=length)", "np.mean(one)", "a short cell counts as much as a long one", "test_heated_slopes.py"),
