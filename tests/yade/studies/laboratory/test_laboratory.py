@@ -40,6 +40,14 @@ pytestmark = pytest.mark.usefixtures("empty")
 # ---- the membrane ---------------------------------------------------------------------------------
 
 
+def test_an_outline_that_touches_itself_goes_on_to_the_other_side():
+    """Two triangles of disks that have one disk in common, which the outline passes twice."""
+    x, y = np.array([0.0, -0.95, -0.95, 0.95, 0.95]), np.array([0.0, 0.4, -0.4, -0.4, 0.4])
+    found = membrane.boundary(x, y, np.full(5, 0.5)).tolist()
+    first = found.index(1)
+    assert found[first:] + found[:first] == [1, 2, 0, 3, 4, 0]
+
+
 def test_membrane_balances_and_presses_on_the_outermost_disks():
     columns, rows = 12, 30
     x, y = (v.ravel().astype(float) for v in np.meshgrid(np.arange(columns), np.arange(rows)))
