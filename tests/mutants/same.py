@@ -23,6 +23,16 @@ SAME = {
     ): "a choice: how many samples at a time where nobody says it; results have the same bits",
     ("py/nonsmooth/water/section_seepage.py", "if state.rain:", "if True:"): "a rain of 0 m/s brings nothing",
     (
+        "py/nonsmooth/water/phreatic.py",
+        "pieces = [piece[np.isfinite(piece[:, 0])] for piece in ends]",
+        "pieces = [piece[np.isfinite(piece[:, 1])] for piece in ends]",
+    ): "a place that there is not has neither coordinate",
+    (
+        "py/nonsmooth/studies/slope/states.py",
+        "KEPT_DAYS = 14 # without use; every build of the engines has states of its own",
+        "KEPT_DAYS = 15 # without use; every build of the engines has states of its own",
+    ): "a choice: how long states are kept that nobody uses",
+    (
         "py/nonsmooth/studies/comparison/biaxials.py",
         'SOURCE, DISKS = "wwr", 1000',
         'SOURCE, DISKS = "wwr", 1001',

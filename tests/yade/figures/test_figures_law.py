@@ -149,6 +149,7 @@ def test_the_zone_has_the_materials_half_axes_around_the_place_of_p_j(zone):
     whole, _, later = figures.bond_zone(dataclasses.replace(ROCK, bond_ellipse=zone), gap=0.04).axes
     (ellipse,) = (p for p in later.patches if type(p) is Ellipse)
     assert (ellipse.width / 2, ellipse.height / 2, ellipse.angle) == pytest.approx((*zone, 0), **exact)
+    assert {"$i$", "$j$", "$k$"} <= set(drawn.texts(whole))
     i, now, then = disks(later)  # the disk that stays, j as it is, j as it was
     assert then == pytest.approx([1.04, 0], **exact) and ellipse.center == pytest.approx([0.54, 0], **exact)
     ((tail, head, _, _),) = drawn.arrows(later)  # of P_j, which goes with its disk

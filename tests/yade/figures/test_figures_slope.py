@@ -225,6 +225,9 @@ def test_ways_are_those_of_front_centre_and_thickness(slid):
     assert not any(a.overlaps(b) for a, b in itertools.combinations(boxes, 2))
     (low, high, _, both), (start, end, _, on), (tail, head, _, way) = drawn.arrows(ax)
     assert both == "<|-|>" and low[0] == high[0] and 40 < low[0] < 70 and (low[1], high[1]) == pytest.approx((20, 32))
+    # an arrow of a thickness reaches what it measures
+    (long,) = (t for t in ax.texts if getattr(t, "arrow_patch", None) and t.arrowprops["arrowstyle"] == "<|-|>")
+    assert (long.arrow_patch.shrinkA, long.arrow_patch.shrinkB) == (0, 0)
     # the front is 0.1 % of the area behind the last disk, which is in the last row
     assert on == way == "-|>" and (start[0], end[0]) == pytest.approx((-30, 70), abs=1e-9) and start[1] == end[1]
     assert tail == pytest.approx([-65, 25]) and head == pytest.approx([45, 25])

@@ -194,6 +194,8 @@ def test_the_strip_of_forces_has_a_cursor_at_the_time_of_the_frame(shown, files)
     for name, values in forces.items():
         assert drawn.points(drawn.line(strip, name)) == pytest.approx(np.column_stack([t, values]))
         assert drawn.legend(told.fig)[name] == drawn.colour(drawn.line(strip, name))
+    levels = [one for one in strip.lines if len(set(one.get_ydata())) == 1 and list(one.get_xdata()) == [0, 1]]
+    assert [set(one.get_ydata()) for one in levels] == [{0}]  # a line at no force, all across
     assert set(TIMES.values()) <= set(drawn.uprights(strip)) and {
         t.get_text(): 100 * t.get_position()[0] for t in strip.texts
     } == pytest.approx({f"$t_{{{name[1]}}}$": at for name, at in TIMES.items()})

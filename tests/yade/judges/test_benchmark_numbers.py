@@ -179,6 +179,14 @@ def test_a_block_of_steps_is_divided_by_their_number(monkeypatch):
 
     monkeypatch.setattr(steps, "advance", advance)
     timed.run(25, warm_up=3)
+    # a row of a run reads a table of the disks, which counts as a part of its steps
+    tables = []
+    solver = SimpleNamespace(stageSeconds={"solve": 0.0}, bodyTable=lambda: tables.append(engine.execTime))
+    hard = object.__new__(steps.TimedSteps)
+    hard.engines, hard.solver, hard.rows = [], solver, []
+    made = engine.execTime
+    hard.run(20, warm_up=0)
+    assert tables == [made + 10_000_000, made + 20_000_000]
     assert [row["step"] for row in timed.rows] == [0.1, 0.1, 0.2]  # a second for ten, ten and five
     assert [row["collide"] for row in timed.rows] == pytest.approx([1e-3] * 3)
     assert [row["other"] for row in timed.rows] == pytest.approx([0.099, 0.099, 0.199])
