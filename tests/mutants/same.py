@@ -33,6 +33,16 @@ SAME = {
         "KEPT_DAYS = 15 # without use; every build of the engines has states of its own",
     ): "a choice: how long states are kept that nobody uses",
     (
+        "py/nonsmooth/measure/fluctuations.py",
+        "return float(np.std(stress[inside] / about - 1)) if inside.any() else math.nan",
+        "return float(np.std(stress[inside] / about - 1)) if True else math.nan",
+    ): "the deviation of nothing is no number, with a warning of NumPy's",
+    (
+        "py/nonsmooth/figures/toe.py",
+        "width = 2 * WIDTH / 3",
+        "width = 2 * WIDTH / 4",
+    ): "a choice: how wide a panel is",
+    (
         "py/nonsmooth/studies/comparison/biaxials.py",
         'SOURCE, DISKS = "wwr", 1000',
         'SOURCE, DISKS = "wwr", 1001',

@@ -254,7 +254,7 @@ LEFT, RIGHT, TOP = [(0, 0), (0, 1)], [(2, 0), (2, 1)], [(0, 1), (2, 1)]
         (["rain"], r"conditions\[0\] 'rain': give Reservoir"),
         (
             [Head([(0.5, 0), (0.5, 1)], 3)],
-            r"conditions\[0\], Head: no edge of the border lies on its line from \(0.5, 0\)",
+            r"conditions\[0\], Head: no edge of the border lies on its line from \(0.5, 0\) to \(0.5, 1\) m; give",
         ),
         ([Head(LEFT, 3), Reservoir(LEFT, 2)], r"Reservoir: conditions\[0\] lies on the border at \(0, 0.75\) m too"),
         ([Head(LEFT, 3), Head(TOP, 2)], r"Head: the node at \(0, 1\) m has the head 3 m already"),
