@@ -43,6 +43,11 @@ SAME = {
         "width = 2 * WIDTH / 4",
     ): "a choice: how wide a panel is",
     (
+        "py/nonsmooth/model/free_surface.py",
+        "if reach < along < length - reach and geometry.distance(*(end - a - along * t)) <= reach:",
+        "if reach < along < length + reach and geometry.distance(*(end - a - along * t)) <= reach:",
+    ): "a piece that is shorter than the tolerance, at a wall's end, belongs to the wall",
+    (
         "py/nonsmooth/studies/comparison/biaxials.py",
         'SOURCE, DISKS = "wwr", 1000',
         'SOURCE, DISKS = "wwr", 1001',

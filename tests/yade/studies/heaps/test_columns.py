@@ -296,6 +296,7 @@ def test_collapse(collapse, world):
     c, found = collapse
     r = found[world]
     s = r.series
+    assert {0.0, 0.5, 1.0, 1.5, 2.0} <= set(r.frames) <= {0.0, 0.5, 1.0, 1.5, 2.0, 3.0, 4.0}  # in units of its fall
     assert np.array_equal(r.r, preparation.prepared(c).r)  # no disk is lost or changed
     assert s["front_m"][0] == pytest.approx(r.width, rel=0.02)  # the mass reaches the gate ...
     # ... and stands as it was prepared; springs yield
