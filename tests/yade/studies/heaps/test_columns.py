@@ -296,7 +296,8 @@ def test_collapse(collapse, world):
     c, found = collapse
     r = found[world]
     s = r.series
-    assert {0.0, 0.5, 1.0, 1.5, 2.0} <= set(r.frames) <= {0.0, 0.5, 1.0, 1.5, 2.0, 3.0, 4.0}  # in units of its fall
+    at = np.array(sorted(r.frames)) / math.sqrt(r.height / c.gravity)  # of the rows that are nearest
+    assert at[:7] == pytest.approx([0.0, 0.5, 1.0, 1.5, 2.0, 3.0, 4.0][: len(at)], abs=0.06) and len(at) > 4
     assert np.array_equal(r.r, preparation.prepared(c).r)  # no disk is lost or changed
     assert s["front_m"][0] == pytest.approx(r.width, rel=0.02)  # the mass reaches the gate ...
     # ... and stands as it was prepared; springs yield
