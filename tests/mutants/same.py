@@ -23,6 +23,11 @@ SAME = {
     ): "a choice: how many samples at a time where nobody says it; results have the same bits",
     ("py/nonsmooth/water/section_seepage.py", "if state.rain:", "if True:"): "a rain of 0 m/s brings nothing",
     (
+        "py/nonsmooth/figures/scene.py",
+        "strengths = np.concatenate(strengths) if strengths else np.zeros(0)",
+        "strengths = np.concatenate(strengths) if strengths else np.zeros(1)",
+    ): "a reference of no force draws no bars, as none does",
+    (
         "py/nonsmooth/water/phreatic.py",
         "pieces = [piece[np.isfinite(piece[:, 0])] for piece in ends]",
         "pieces = [piece[np.isfinite(piece[:, 1])] for piece in ends]",

@@ -370,3 +370,22 @@ def test_a_place_that_was_no_number_and_is_mended_has_contacts_again(axis, wrong
     O.bodies[disk].state.pos, O.bodies[disk].state.vel = (0, 0.5, 0), (0, 0, 0)
     run(300)
     assert O.bodies[disk].state.pos[1] == pytest.approx(0.5, abs=1e-3)  # it lies on the floor
+
+
+@pytest.mark.parametrize("wall", ["segment", "arc", "disk"])
+@pytest.mark.parametrize("gap, near", [(0.09, 1), (0.11, 0), (0.3, 0)])
+def test_what_is_farther_than_the_reach_is_no_contact_though_boxes_meet(wall, gap, near):
+    """The reach is a tenth of a radius of 1 m; boxes are searched with a margin of half a metre."""
+    stuff, rough = material(0.5), material(0.5)
+    O.materials.append((stuff, rough))
+    if wall == "segment":
+        O.bodies.append(scene.segments([(-4, 0), (4, 0)], rough))
+    elif wall == "arc":
+        O.bodies.append(scene.arc((0, -5), 5.0, 0.3, math.pi - 0.3, rough, inside=False))
+    else:
+        O.bodies.append(scene.disk((0, -1), 1.0, rough, fixed=True))
+    O.bodies.append(scene.disk((0, 1 + gap), 1.0, stuff))
+    # between disks the reach is in parts of both radii
+    O.engines, O.dt = scene.engines(gravity=(0, 0, 0), reach=0.05 if wall == "disk" else 0.1, verlet=0.5), 1e-3
+    O.step()
+    assert scene.contact_dynamics().candidates == near

@@ -131,6 +131,14 @@ def test_the_whole_slope_is_drawn_by_layers(slope, chains):
         assert drawn.texts(figures.force_chains(later, WALLS, title=title))[0].startswith(begins)
 
 
+def test_the_first_window_is_as_wide_as_the_mass_is_high_at_the_foot():
+    """1.35 times the height by 4.1 and 4.95, that of its axes; of disks that are small beside it."""
+    x, y = (part.ravel() for part in np.meshgrid(np.arange(-99.5, 0.0, 1.0), np.arange(0.5, 50.0, 1.0)))
+    many = synthetic.few(x, y, [(0, 1, 4e6)], r=np.full(len(x), 0.4))
+    window = figures.force_chains(many, WALLS).axes[1]
+    assert np.ptp(window.get_xlim()) == pytest.approx(1.35 * 49.5 * 4.95 / 4.1, rel=1e-9)
+
+
 def test_windows_show_all_disks_that_reach_into_them(slope):
     """Also those whose centres lie outside; what is two radii off is not drawn."""
     x, y = (part.ravel() for part in np.meshgrid(np.arange(-99.5, 60.0, 2.1), np.arange(0.5, 60.0, 2.1)))

@@ -252,6 +252,20 @@ def test_a_view_of_ones_own_is_kept(shown, tmp_path):
 
 
 @pytest.mark.parametrize(
+    "view, pixels",
+    [
+        ((0, 10, 0, 90), (480, 720 + 44)),  # as high as a picture may be, and no narrower than 480 pixels
+        ((0, 120, 0, 20), (1280, 214 + 44)),  # as wide, of 213.3 pixels: the next even number
+        ((0, 101, 0, 61), (1194, 720 + 44)),  # 1192.1 pixels
+    ],
+)
+def test_a_video_is_as_large_as_may_be_in_even_numbers_of_pixels(view, pixels, shown, tmp_path):
+    falling()
+    figures.animate(O, tmp_path / "fall.mp4", seconds=0.1, frames=1, view=view)
+    assert {f.picture.shape[1::-1] for f in shown} == {pixels}
+
+
+@pytest.mark.parametrize(
     "how, words",
     [
         (dict(path="fall.avi"), "fall.avi: a video ends in .mp4 or .gif"),

@@ -239,6 +239,7 @@ def test_files_that_are_refused(files):
         {"file": str(folder / "field.h5"), "states": [{"time": 0.0, "file": "x"}]},
         {},
         {"states": [{"time": 1.0, "file": str(folder / "state0.vtk")}, {"time": 1.0, "file": "x"}]},
+        {"states": [{"time": 1.0, "file": str(folder / "state0.vtk")}, {"time": 2.0, "file": str(folder / "none.vtk")}]},
     ):
         with pytest.raises(section.SectionError) as error:
             section.of(data({"field": field}))
@@ -249,8 +250,9 @@ def test_files_that_are_refused(files):
         ("water.field: has both `file` and `states`", "give one file"),
         ("water.field: has neither `file` nor `states`", "give one file"),
         ("water.field.states[1].time: the time 1 s does not follow 1 s", "rising"),
+        ("water.field.states[1].file", "none.vtk cannot be read (No such file"),
     )
-    for one, wanted in zip(said, parts):
+    for one, wanted in zip(said, parts, strict=True):
         assert all(part in one for part in wanted) and "\n" not in one, one
     with pytest.raises(FieldError, match="^section: water.field: .*field.h5: has no dataset q; it has"):
         of_section.field(of_file(folder, name="q"))
