@@ -28,6 +28,11 @@ SAME = {
         "strengths = np.concatenate(strengths) if strengths else np.zeros(1)",
     ): "a reference of no force draws no bars, as none does",
     (
+        "py/nonsmooth/world/scene.py",
+        "Ig2_Segment_Sphere_ScGeom(interactionDetectionFactor=1 + far),",
+        "Ig2_Segment_Sphere_ScGeom(interactionDetectionFactor=2 + far),",
+    ): "the law leaves out what is beyond its reach: it costs time alone",
+    (
         "py/nonsmooth/water/phreatic.py",
         "pieces = [piece[np.isfinite(piece[:, 0])] for piece in ends]",
         "pieces = [piece[np.isfinite(piece[:, 1])] for piece in ends]",
