@@ -33,6 +33,11 @@ SAME = {
         "Ig2_Segment_Sphere_ScGeom(interactionDetectionFactor=2 + far),",
     ): "the law leaves out what is beyond its reach: it costs time alone",
     (
+        "py/nonsmooth/world/soft/functors.py",
+        "model, damping, rolling_ratio=1.0, gravity=(0, -9.81, 0), verlet=0.1, before=(), after=(), every=200, ductile=False",
+        "model, damping, rolling_ratio=1.0, gravity=(0, -9.81, 0), verlet=0.2, before=(), after=(), every=200, ductile=False",
+    ): "a choice: how far boxes of neighbours reach costs time alone",
+    (
         "py/nonsmooth/water/phreatic.py",
         "pieces = [piece[np.isfinite(piece[:, 0])] for piece in ends]",
         "pieces = [piece[np.isfinite(piece[:, 1])] for piece in ends]",
@@ -47,11 +52,7 @@ SAME = {
         "return float(np.std(stress[inside] / about - 1)) if inside.any() else math.nan",
         "return float(np.std(stress[inside] / about - 1)) if True else math.nan",
     ): "the deviation of nothing is no number, with a warning of NumPy's",
-    (
-        "py/nonsmooth/figures/toe.py",
-        "width = 2 * WIDTH / 3",
-        "width = 2 * WIDTH / 4",
-    ): "a choice: how wide a panel is",
+    ("py/nonsmooth/figures/toe.py", "width = 2 * WIDTH / 3", "width = 2 * WIDTH / 4"): "a choice: how wide a panel is",
     (
         "py/nonsmooth/model/free_surface.py",
         "if reach < along < length - reach and geometry.distance(*(end - a - along * t)) <= reach:",

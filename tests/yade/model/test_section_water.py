@@ -239,7 +239,12 @@ def test_files_that_are_refused(files):
         {"file": str(folder / "field.h5"), "states": [{"time": 0.0, "file": "x"}]},
         {},
         {"states": [{"time": 1.0, "file": str(folder / "state0.vtk")}, {"time": 1.0, "file": "x"}]},
-        {"states": [{"time": 1.0, "file": str(folder / "state0.vtk")}, {"time": 2.0, "file": str(folder / "none.vtk")}]},
+        {
+            "states": [
+                {"time": 1.0, "file": str(folder / "state0.vtk")},
+                {"time": 2.0, "file": str(folder / "none.vtk")},
+            ]
+        },
     ):
         with pytest.raises(section.SectionError) as error:
             section.of(data({"field": field}))

@@ -80,6 +80,16 @@ def test_forces_are_those_on_the_second_body(wall, way):
     )
 
 
+def test_a_walls_rolling_stiffness_is_that_of_its_shear_at_the_radius():
+    """k_r = k_s R², unless a world has another ratio."""
+    for world, ratio in ((WORLD, 1.0), (dataclasses.replace(WORLD, rolling_ratio=0.4), 0.4)):
+        begin([(0, 0.499, 0.5)], wall=True, world=world)
+        run(1)
+        (phys,) = [i.phys for i in O.interactions if i.isReal]
+        assert phys.kr == pytest.approx(ratio * phys.ks * 0.5**2, **same) and phys.kr > 0
+        O.reset()
+
+
 def test_energies_and_centre_by_hand():
     seen, ids = begin([(0.0, 3.0, 0.5), (4.0, -1.0, 0.8)], gravity=(2.0, -9.81, 0))
     O.step()

@@ -17,6 +17,7 @@ from yade.nonsmooth.course import driver
 from yade.nonsmooth.figures import film, wall_shear as wall_shear_figure
 from yade.nonsmooth.laboratory import (
     biaxial,
+    biaxial_test,
     calibration,
     campaign,
     effects,
@@ -35,6 +36,30 @@ from yade.wrapper import Law2_ScGeom_NscdPhys_SignoriniCoulomb, NscdInteractionL
 
 
 pytestmark = pytest.mark.usefixtures("empty")
+
+
+# ---- the report's cycle of stress -----------------------------------------------------------------
+
+
+def test_a_cycle_that_was_kept_is_drawn_by_the_rows_of_its_steps(monkeypatch, tmp_path):
+    test = {"confining_Pa": 8e6, "disks": 1200}
+    home = tmp_path / "tests" / "one"
+    steps = {"begin": 300, "peak": 500, "end": 520}
+    drawn = []
+    monkeypatch.setattr(report, "name_of_result", lambda measured: home.name)
+    monkeypatch.setattr(
+        report.records, "read_snapshot", lambda path: SimpleNamespace(step=steps[path.stem], name=path.stem)
+    )
+    monkeypatch.setattr(report.records, "read_series", lambda path: {"step": np.arange(0, 1000, 10)})
+    monkeypatch.setattr(report.cycle_figure, "cycle", lambda *given: drawn.append(given) or given[-1])
+    assert report._cycle(test, tmp_path) == [] and not drawn  # nothing was kept
+    (home / biaxial_test.CYCLE).mkdir(parents=True)
+    for name in steps:
+        (home / biaxial_test.CYCLE / f"{name}.npz").write_bytes(b"")
+    assert report._cycle(test, tmp_path) == [tmp_path / "cycle.png"]
+    ((_, rows, before, after, words, _),) = drawn
+    assert rows == cycles.Cycle(30, 50, 52) and (before.name, after.name) == ("peak", "end")
+    assert words == "σ₃ = 8 MPa, 1,200 disks"
 
 
 # ---- the membrane ---------------------------------------------------------------------------------

@@ -19,7 +19,7 @@ from yade.nonsmooth.course import driver, strength_reduction as reduction
 from yade.nonsmooth.model import materials, rocks
 from yade.nonsmooth.records import checkpoints
 from yade.nonsmooth.running import processes
-from yade.nonsmooth.studies.safety import asked as safety_asked, results, search
+from yade.nonsmooth.studies.safety import asked as safety_asked, pictures, results, search
 from yade.nonsmooth.studies.slope import slope, slope_packing
 
 SOFT = {"name": "soft", "stiffness": 1e9}
@@ -224,6 +224,21 @@ def test_contacts_that_exist_have_the_divided_strengths_and_those_to_come_too(tm
     # and back again, to the last bit
     slope.set_strengths(built, asked.strengths(1.0), world)
     assert physics() == before
+
+
+def test_each_figure_of_a_search_is_drawn_from_what_it_has(monkeypatch, tmp_path):
+    """Displacements of all trials with a row; the mass that fails where it is known; neither without a row."""
+    monkeypatch.setattr(
+        pictures.safety, "displacements", lambda trials, bracket, path: ("displacements", bracket, path)
+    )
+    trial = {"trial": 1, "displacement_mean_m": [0.1], "verdict": "failed", "factor": 1.5}
+    summary = {"trials": [trial], "factor_low": 1.0, "factor_high": 1.5, "failing_area_m2": None}
+    made = sliding_block.block()
+    assert pictures.figure(tmp_path, made, summary, "displacements") == ("displacements", (1.0, 1.5), None)
+    assert pictures.figure(tmp_path, made, summary, "failing_mass") is None
+    path = tmp_path / "displacements.png"
+    assert pictures.draw(tmp_path, made, summary) == [("displacements", (1.0, 1.5), path)]
+    assert pictures.figure(tmp_path, made, {**summary, "trials": [{"trial": 1}]}, "displacements") is None
 
 
 # ---- stops, and the same bits -----------------------------------------------------------------------
