@@ -38,6 +38,16 @@ SAME = {
         "model, damping, rolling_ratio=1.0, gravity=(0, -9.81, 0), verlet=0.2, before=(), after=(), every=200, ductile=False",
     ): "a choice: how far boxes of neighbours reach costs time alone",
     (
+        "py/nonsmooth/figures/film.py",
+        'fps=fps, codec="h264", bitrate=-1,',
+        'fps=fps, codec="h264", bitrate=-2,',
+    ): "no bit rate at all is asked for by any number below 0",
+    (
+        "py/nonsmooth/judges/benchmark/scale.py",
+        "of_sweeps = 5 + 1e-4 * sum(sizes)",
+        "of_sweeps = 5 + 1e-4 / sum(sizes)",
+    ): "a choice: how many seconds are foreseen",
+    (
         "py/nonsmooth/water/phreatic.py",
         "pieces = [piece[np.isfinite(piece[:, 0])] for piece in ends]",
         "pieces = [piece[np.isfinite(piece[:, 1])] for piece in ends]",

@@ -297,3 +297,20 @@ def test_groups_that_a_file_has_not_are_made():
     with pytest.raises(section.SectionError, match="water: the key 'plane' is missing"):
         section.of(bare).with_values({"water.table.rate": 1.0})
     assert section.of(bare).water is None  # the first is as it was
+
+
+@pytest.mark.parametrize(
+    "key, value, original",
+    [
+        ("water.seepage.conductivity", 1e-5, 5e-6),  # speeds go with the root of the size
+        ("water.seepage.conductivity.rock", 1e-5, 5e-6),
+        ("water.seepage.conductivity.rock.along", 1e-5, 5e-6),
+        ("water.seepage.conductivity.rock.dip", 30.0, 30.0),
+        ("materials.rock.tensile_strength", 4e5, 1e5),
+        ("materials.dp.slip_weakening.critical_slip", 8.0, 2.0),
+        ("layers.L1.disks.diameter", [4.0, 8.0], [1.0, 2.0]),
+        ("gravity", 9.81, 9.81),
+    ],
+)
+def test_a_value_of_a_slope_four_times_as_large_is_that_of_its_original(key, value, original):
+    assert similar.original_value(key, value, 4.0) == pytest.approx(original, rel=1e-12)
