@@ -1,8 +1,9 @@
 # How a slope runs away as its slip surface heats: slip, time, temperature and speed until its strength has gone, for values of one key of its slip law, over packings.
-# Usage: scripts/yade-nonsmooth scripts/examples/heated_slopes.py [table: section, key (of the section), values, labels, disks, seeds, folder]
+# Usage: [YADE_BATCH=TABLE:2] scripts/yade-nonsmooth scripts/examples/heated_slopes.py [TABLE, its names in the first line, values in the second: section, key (of the section), values, labels, disks, seeds, folder]
 # Prints for each value what became of its slopes: means over packings and half of their 95 % intervals. FOLDER/heated.json keeps them. Draws FOLDER/heated.png, friction
 # that is left against slip and speed against time, and FOLDER/slip_surface.png, where along the surface of the first packing of the first value it was hot and weak.
 import os
+import sys
 from pathlib import Path
 
 from yade import utils
@@ -22,8 +23,12 @@ TOLD = (
     ("hottest_degC_5", "{} °C at most", 0),
 )  # fmt: skip
 folder, seeds = Path(table.folder), list(range(1, table.seeds + 1))
+if not isinstance(table.values, (list, tuple)) or (table.labels and len(table.labels) != len(table.values)):
+    sys.exit(f"values {table.values}, labels {table.labels}: give a list of values, and a label for each or None")
 slope = section.load(table.section).with_disks(table.disks)
 walls = [wall.name for wall in slope.heated_surfaces]
+if not walls:
+    sys.exit(f"section {table.section}: no wall of role slip has a slip_law; give a section in which one has")
 found = campaign.sweep(slope, {table.key: list(table.values), "seed": seeds}).run(folder, threads=os.cpu_count(), resume=True)
 opened = [runs.open_run(folder / "runs" / name) for name in found["run"]]
 of_surface = [heated_surface.numbers(run.series, run.slip_surface, walls) for run in opened]
@@ -46,8 +51,8 @@ for row in campaign.means(found, [table.key, "seed"]):
         print("  95 % of the strength had gone: " + ", ".join(words.format(said(row, name, digits)) for name, words, digits in TOLD))
     print(f"  mean speed up to {said(row, 'speed_mean_max_m_per_s', 1)} m/s, front {said(row, 'front_travel_m', 0)} m")
     one = told.setdefault(value.replace(".", "_"), {"packings": row["of"], "failed": 0, "stood": 0})
-    kind = "failed" if row["verdict"].startswith("failed by") else "stood"
-    one[kind] += len(row["seeds"])
+    kind = "failed" if row["verdict"].startswith("failed by") else row["verdict"].replace(" ", "_")
+    one[kind] = one.get(kind, 0) + len(row["seeds"])
     one[f"when_{kind}"] = {name: row["numbers"][name] for name in (*OF_RUN, *of_surface[0]) if name in row["numbers"]}
 whole_files.write_json(folder / "heated.json", told)
 slid = [(label, run.series) for label, run in zip(labels, opened) if heated_surface.begin(run.series) is not None]

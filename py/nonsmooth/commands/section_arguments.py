@@ -111,12 +111,12 @@ def add(parser, default=None, needless=()):
 def read(args) -> section.Section:
     """The Section that they ask for. Raises SectionError."""
     s = section.load(args.section)
-    if args.mirror:
-        s = similar.mirrored(s)
     if args.size is not None:
         s = similar.scaled(s, args.size)
     if args.disks is not None:
         s = s.with_disks(args.disks)
+    if args.mirror:  # last: areas of a mirrored outline differ in their last digits, and diameters would
+        s = similar.mirrored(s)
     if args.rock is not None:
         s = s.with_rock(materials.data(args.rock, "--rock"))
     if args.seed is not None:

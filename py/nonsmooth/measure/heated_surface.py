@@ -51,13 +51,13 @@ def rows(series) -> dict:
 
 def begin(series) -> float | None:
     """When the mean speed passes :data:`BEGIN` for the last time before it is largest [s], between two rows; None where
-    it does not. Raises RecordsError as :func:`rows` does.
+    it does not, and for a slope that moved so fast as soon as it had settled. Raises RecordsError as :func:`rows` does.
     """
     series = rows(series)
     speed = series["speed_mean_m_per_s"][: int(np.argmax(series["speed_mean_m_per_s"])) + 1]
     first = int(np.flatnonzero(speed < BEGIN).max(initial=0))
     place = _passed(speed[first:], BEGIN)
-    return None if place is None else _at(series["time_s"][first:], place)
+    return None if place is None or place[0] == 0 else _at(series["time_s"][first:], place)
 
 
 def lost(series, share) -> dict | None:

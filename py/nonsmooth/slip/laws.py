@@ -2,10 +2,13 @@
 
 from __future__ import annotations
 
+import importlib.util
 import numbers
+import sys
 from dataclasses import dataclass
 
 from ..errors import UserError
+from ..system import installation
 
 __all__ = ["Parameter", "SlipError", "SlipLaw", "boiling_temperature", "known", "parameters", "vapour_pressure"]
 
@@ -27,6 +30,8 @@ class Parameter:
 
 
 def _library():
+    if importlib.util.find_spec("_nonsmooth_slip") is None:  # outside YADE
+        sys.path.append(str(installation.modules()))
     try:
         import _nonsmooth_slip
     except ModuleNotFoundError as error:

@@ -63,5 +63,10 @@ def engines() -> Path:
     return path
 
 
+def modules() -> Path:
+    """The folder of the checkout's build in which modules stand that need no YADE."""
+    return _prefix().parent / "python"
+
+
 def _prefix():
     return Path(os.environ.get("NONSMOOTH_BUILD") or _CHECKOUT / "build") / "prefix"

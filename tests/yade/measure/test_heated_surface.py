@@ -40,6 +40,8 @@ def test_it_begins_where_the_mean_speed_passes_a_tenth_of_a_metre_per_second():
     again = series(speed_mean_m_per_s=lambda t: np.where(t == 18, 0.0, speed))
     assert heated.begin(again) == pytest.approx(10.05, **near)
     assert heated.begin(series(speed_mean_m_per_s=lambda t: np.where(t < 5, speed, 0.099))) is None
+    # nor is known when a slope began that moved as soon as it had settled
+    assert heated.begin(series(speed_mean_m_per_s=lambda t: np.where(t < 5, speed, t))) is None
 
 
 @pytest.mark.parametrize("share, late", [(0.7, 1.0), (0.55, 1.5), (0.1, 3.0), (0.05, 3 + 0.05 / 0.06)])

@@ -107,7 +107,9 @@ def build(document, source: str) -> Section:
         section_checks.check_pressures(section, document)
     section = dataclasses.replace(section, erosion=erosion.windows(section, document))
     section = section_values.keep(section, given)
-    return section.with_disks(size["count"]) if "count" in size else section
+    section = section.with_disks(size["count"]) if "count" in size else section
+    section_checks.check_cells(section, document)
+    return section
 
 
 def _take_old_names(document) -> None:

@@ -168,6 +168,19 @@ def _rock_notes(section):
             )
 
 
+def check_cells(section: Section, document) -> None:
+    """Refuses cells of slip laws that are shorter than a disk: most would have no contact."""
+    least = math.sqrt(section.disks.mean_square)
+    for wall in section.with_slip_law:
+        length = section.materials[wall.material].slip_law.cell_length
+        if 0 < length < least:
+            document.refuse(
+                ("materials", wall.material, "slip_law", "cell_length"),
+                f"{length:g} m is less than a mean diameter, {least:.3g} m",
+                f"give {least:.3g} or more, or leave it out: eight mean diameters",
+            )
+
+
 def check_pressures(section: Section, document) -> None:
     """Refuses water that leaves a disk after a way where a slip law has a pore pressure of its own: the weight that it
     gives back would come in the middle of weakening.

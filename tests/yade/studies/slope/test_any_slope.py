@@ -2,6 +2,7 @@
 weakening or backstop.
 """
 
+import argparse
 import json
 
 import numpy as np
@@ -10,6 +11,7 @@ import shell
 from slope_scenes import SMALL, write_changed
 from yade import O
 from yade.nonsmooth import experiment, records, run_figures, scene, section, similar, tables
+from yade.nonsmooth.commands import section_arguments
 from yade.nonsmooth.figures import style
 from yade.nonsmooth.packing_files import Packing
 from yade.nonsmooth.studies.slope import results, slope, slope_packing
@@ -101,6 +103,18 @@ def test_every_shipped_section_begins(name, disks, end, in_process, monkeypatch,
         )
     )
     assert any("backstop" in t.get_text() for t in kept["forces.png"].texts) == bool(made.of_role("backstop"))
+
+
+@pytest.mark.parametrize("name", ["vaiont", "circle"])
+def test_a_mirrored_slope_of_other_disks_has_the_diameters_of_the_slope(name):
+    """To the last bit, though the areas of mirrored outlines differ there."""
+    parser = argparse.ArgumentParser()
+    section_arguments.add(parser)
+    here, there = (
+        section_arguments.read(parser.parse_args(["--section", name, "--disks", "300", *more]))
+        for more in ([], ["--mirror"])
+    )
+    assert there.side == -here.side and (here.disks.d_min, here.disks.d_max) == (there.disks.d_min, there.disks.d_max)
 
 
 def test_a_mirrored_slope_has_the_mirrored_bits(whole, tmp_path):

@@ -3,6 +3,8 @@ bytes, what is written and drawn, and what is refused.
 """
 
 import json
+import os
+import subprocess
 
 import numpy as np
 import pytest
@@ -123,7 +125,7 @@ def test_cells_have_the_length_that_a_section_gives_them(tmp_path):
     whole = section.of(made).of_role("slip")[0].points
     whole = np.hypot(*np.diff(whole, axis=0).T).sum()
     assert length[0] == pytest.approx(whole / round(whole / 40.0), rel=1e-3)
-    for wrong in (0, -1, "long"):
+    for wrong in (0, -1, "long", 0.001):  # the last one of disks of a metre and more
         made["materials"]["surface"]["slip_law"]["cell_length"] = wrong
         with pytest.raises(section.SectionError, match="cell_length"):
             section.of(made)
@@ -267,3 +269,13 @@ def test_the_script_that_compares_slip_laws(tmp_path):
     assert thick > 2 * thin
     for name in ("heated", "slip_surface"):
         assert (tmp_path / "out" / f"{name}.png").stat().st_size > 1000
+
+
+def test_a_section_with_a_slip_law_is_read_without_yade_and_without_a_path():
+    """As a sweep of it is planned: the laws' library is found in the build."""
+    code = "import sys; sys.path.insert(0, 'py'); from nonsmooth import section; print(section.load('vaiont').name)"
+    environment = {name: value for name, value in os.environ.items() if name != "PYTHONPATH"}
+    done = subprocess.run(
+        ["/usr/bin/python3", "-c", code], cwd=shell.ROOT, env=environment, capture_output=True, text=True
+    )
+    assert done.stdout == "Vaiont\n", done.stderr
