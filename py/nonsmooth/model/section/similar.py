@@ -33,6 +33,7 @@ POWERS = {
     "materials.tensile_strength": STRESS,
     "materials.residual_tensile_strength": STRESS,
     "materials.slip_weakening.critical_slip": LENGTH,
+    "materials.slip_law.cell_length": LENGTH,
     "materials.slip_weakening.tensile_strength": STRESS,
     "materials.envelope.cohesion": STRESS,
     "materials.cohesion": STRESS,
