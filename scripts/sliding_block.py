@@ -11,7 +11,6 @@ Laws that share a heated zone go together: --law thermal_pressurization flash_he
 figure. In DIR: block.csv (one a set), block.png, and summary.json with slip and time at shares of the first strength.
 """
 import argparse
-import os
 import sys
 from pathlib import Path
 
@@ -23,9 +22,8 @@ if "yade" in sys.modules:  # started by the launcher
     from yade.nonsmooth.slip import block, laws, parameter_sets
     from yade.nonsmooth.system import output_folder
     from yade.nonsmooth.system.whole_files import write_json
-else:  # the library of laws stands beside the package in the build
-    root = Path(__file__).resolve().parents[1]
-    sys.path[:0] = [str(root / "py"), str(Path(os.environ.get("NONSMOOTH_BUILD") or root / "build") / "python")]
+else:  # the library of laws is found in the build
+    sys.path.insert(0, str(Path(__file__).resolve().parents[1] / "py"))
     from nonsmooth import commands
     from nonsmooth.commands import arguments
     from nonsmooth.figures import sliding_block as figures

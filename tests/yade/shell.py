@@ -37,6 +37,15 @@ def run(program, *arguments, limit=600, cwd=None, given=None, **changes):
     )
 
 
+def example(script, cwd, /, **values):
+    """Runs one of scripts/examples in the folder ``cwd``, with ``values`` of its table as they stand there (texts in quotes).
+    Returns a subprocess.CompletedProcess with text.
+    """
+    table = Path(cwd) / "values.table"
+    table.write_text(f"{' '.join(values)}\n{' '.join(map(str, values.values()))}\n")
+    return run("yade-nonsmooth", SCRIPTS / "examples" / script, limit=300, cwd=cwd, YADE_BATCH=f"{table}:2")
+
+
 def batch(table, script, folder, log):
     """yade-batch in a folder, one job after the other, with the lines of a table; ``log``: of each, "@" its name.
     Returns a subprocess.CompletedProcess with text.

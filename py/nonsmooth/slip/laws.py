@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import importlib.util
 import numbers
 import sys
 from dataclasses import dataclass
@@ -30,8 +29,9 @@ class Parameter:
 
 
 def _library():
-    if importlib.util.find_spec("_nonsmooth_slip") is None:  # outside YADE
-        sys.path.append(str(installation.modules()))
+    beside = str(installation.modules())
+    if beside not in sys.path:  # outside YADE; the last place that is asked
+        sys.path.append(beside)
     try:
         import _nonsmooth_slip
     except ModuleNotFoundError as error:

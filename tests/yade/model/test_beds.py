@@ -391,14 +391,7 @@ def test_the_example_compares_three_beds(tmp_path):
         data["layers"].append(BED)
 
     path = write_changed(tmp_path, change)
-    (tmp_path / "bed.table").write_text(f"section disks seeds folder\n'{path}' 0 1 '{tmp_path}/out'\n")
-    done = shell.run(
-        "yade-nonsmooth",
-        shell.SCRIPTS / "examples" / "erodible_bed.py",
-        limit=300,
-        cwd=tmp_path,
-        YADE_BATCH=f"{tmp_path}/bed.table:2",
-    )
+    done = shell.example("erodible_bed.py", tmp_path, section=f"'{path}'", disks=0, seeds=1, folder=f"'{tmp_path}/out'")
     assert done.returncode == 0, done.stderr
     rows = {
         found[1]: (float(found[2]), float(found[3]))

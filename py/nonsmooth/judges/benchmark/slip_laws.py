@@ -10,11 +10,12 @@ from __future__ import annotations
 import math
 
 from yade import O
-from yade.wrapper import ContactDynamicsEngine, NscdMat, SlipSurfaceMat, Sphere
+from yade.wrapper import NscdMat, SlipSurfaceMat, Sphere
 
 from ...measure.statistics import spread
 from ...slip.laws import SlipLaw
 from ...studies.slope import states
+from ...world.scene import contact_dynamics
 from . import steps
 
 __all__ = ["FRICTION", "measure"]
@@ -46,7 +47,7 @@ def _on_walls(make):
     O.materials.append(list(made.values()))
     for body, k in zip(walls, had):
         body.material = made[k]
-    next(e for e in O.engines if isinstance(e, ContactDynamicsEngine)).updateStrengths()
+    contact_dynamics().updateStrengths()
     return list(made.values())
 
 

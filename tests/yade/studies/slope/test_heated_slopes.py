@@ -3,8 +3,6 @@ bytes, what is written and drawn, and what is refused.
 """
 
 import json
-import os
-import subprocess
 
 import numpy as np
 import pytest
@@ -239,17 +237,16 @@ def test_it_is_written_down_as_it_is(tmp_path):
 def test_the_script_that_compares_slip_laws(tmp_path):
     """Of zones of 1 and of 5 cm, two packings each: what it tells is what its runs have."""
     (tmp_path / "heated.yaml").write_text(yaml.safe_dump(heated()))
-    lines = (
-        "section key values labels disks seeds folder",
-        f"'{tmp_path}/heated.yaml' 'materials.surface.slip_law.parameters.thickness' [0.01,0.05] None 150 2 '{tmp_path}/out'",
-    )
-    (tmp_path / "zones.table").write_text("\n".join(lines) + "\n")
-    done = shell.run(
-        "yade-nonsmooth",
-        shell.SCRIPTS / "examples" / "heated_slopes.py",
-        limit=300,
-        cwd=tmp_path,
-        YADE_BATCH=f"{tmp_path}/zones.table:2",
+    done = shell.example(
+        "heated_slopes.py",
+        tmp_path,
+        section=f"'{tmp_path}/heated.yaml'",
+        key="'materials.surface.slip_law.parameters.thickness'",
+        values="[0.01,0.05]",
+        labels=None,
+        disks=150,
+        seeds=2,
+        folder=f"'{tmp_path}/out'",
     )
     assert done.returncode == 0, done.stderr
     told = json.loads((tmp_path / "out" / "heated.json").read_text())
@@ -274,8 +271,5 @@ def test_the_script_that_compares_slip_laws(tmp_path):
 def test_a_section_with_a_slip_law_is_read_without_yade_and_without_a_path():
     """As a sweep of it is planned: the laws' library is found in the build."""
     code = "import sys; sys.path.insert(0, 'py'); from nonsmooth import section; print(section.load('vaiont').name)"
-    environment = {name: value for name, value in os.environ.items() if name != "PYTHONPATH"}
-    done = subprocess.run(
-        ["/usr/bin/python3", "-c", code], cwd=shell.ROOT, env=environment, capture_output=True, text=True
-    )
+    done = shell.run("/usr/bin/python3", "-c", code, cwd=shell.ROOT, PYTHONPATH="")
     assert done.stdout == "Vaiont\n", done.stderr

@@ -195,17 +195,17 @@ def test_the_script_that_compares_peaks(tmp_path):
     wet = {"base": str(water), "water": {"table": {"rate": None, "points": [[0, 0.2]]}}, "shaking": dry["shaking"]}
     for name, content in (("dry", dry), ("wet", wet)):
         (tmp_path / f"{name}.yaml").write_text(yaml.safe_dump(content))
-    lines = (
-        "dry wet water disks dry_peaks wet_peaks seeds folder",
-        f"'{tmp_path}/dry.yaml' '{tmp_path}/wet.yaml' '{water}' 150 [1,30] [30] 2 '{tmp_path}/out'",
-    )
-    (tmp_path / "peaks.table").write_text("\n".join(lines) + "\n")
-    done = shell.run(
-        "yade-nonsmooth",
-        shell.SCRIPTS / "examples" / "shaken_slopes.py",
-        limit=300,
-        cwd=tmp_path,
-        YADE_BATCH=f"{tmp_path}/peaks.table:2",
+    done = shell.example(
+        "shaken_slopes.py",
+        tmp_path,
+        dry=f"'{tmp_path}/dry.yaml'",
+        wet=f"'{tmp_path}/wet.yaml'",
+        water=f"'{water}'",
+        disks=150,
+        dry_peaks="[1,30]",
+        wet_peaks="[30]",
+        seeds=2,
+        folder=f"'{tmp_path}/out'",
     )
     assert done.returncode == 0, done.stderr
     told = json.loads((tmp_path / "out" / "shaken.json").read_text())
