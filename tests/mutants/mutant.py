@@ -16,6 +16,8 @@ extern "C" {{
 int {SYMBOL} = [] {{ const char* number = std::getenv("NONSMOOTH_MUTANT"); return number ? std::atoi(number) : 0; }}();
 }}
 """
+# a module of Python links one of them alone; what links both takes the switch of the first
+LIBRARIES = ("pkg/contact", "pkg/contact/slip")
 
 
 class TableError(ValueError):
@@ -127,4 +129,5 @@ def switch_all(root, mutants):
             text, before = text[:begin] + switched(old, alternatives) + text[begin + len(old) :], begin
         path.write_text(text)
     (Path(root) / "pkg" / "contact" / "mutant.hpp").write_text(HEADER)
-    (Path(root) / "pkg" / "contact" / "mutant.cpp").write_text(SOURCE)
+    for library in LIBRARIES:
+        (Path(root) / library / "mutant.cpp").write_text(SOURCE)

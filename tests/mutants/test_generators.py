@@ -3,6 +3,7 @@ YADE, no files but made-up ones.
 """
 import ast
 import os
+import re
 from textwrap import dedent
 
 import changes
@@ -12,7 +13,7 @@ import pytest
 import python_changes
 import workplace
 from changes import COMPARISON, CONDITION, CONSTANT, INDEX, NAME, SIGN, as_mutant, chosen, number
-from mutant import check_whole, mutant
+from mutant import LIBRARIES, check_whole, mutant
 from near_tests import NearTests
 
 
@@ -328,7 +329,7 @@ def test_a_copy_is_built_again_where_it_changed_also_back(tmp_path, monkeypatch)
     built with them.
     """
     checkout, copy = tmp_path / "checkout" / "pkg" / "contact", tmp_path / "copy"
-    checkout.mkdir(parents=True)
+    (checkout / "slip").mkdir(parents=True)
     for name in ("a.cpp", "b.cpp"):
         (checkout / name).write_text("int f() { return x + y; }\n")
         os.utime(checkout / name, (1e9, 1e9))
@@ -347,6 +348,15 @@ def test_a_copy_is_built_again_where_it_changed_also_back(tmp_path, monkeypatch)
     again = times()
     assert again[0] == first[0] and again[1] > first[1] > 1e9 * 1e9
     assert (copy / "pkg" / "contact" / "b.cpp").read_text() == (checkout / "b.cpp").read_text()
+
+
+def test_every_library_that_a_python_module_links_has_the_switch():
+    """Such a module is opened without the engines, and what its library leaves undefined nobody defines."""
+    cmake, bindings = ((workplace.ROOT / name).read_text() for name in ("CMakeLists.txt", "cmake/Bindings.cmake"))
+    folders = dict(re.findall(r"file\(GLOB \w+ CONFIGURE_DEPENDS (\S+)/\*\.cpp.*\)\nadd_library\((\w+) STATIC", cmake))
+    linked = re.findall(r"^nonsmooth_python_module\(.* (\w+)\)$", bindings, re.M)
+    assert len(linked) == 2
+    assert {folder for folder, library in folders.items() if library in linked} == set(LIBRARIES)
 
 
 # ---- who judges
