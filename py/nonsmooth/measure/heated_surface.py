@@ -13,7 +13,7 @@ import numpy as np
 
 from ..records import RecordsError, since_settled
 
-__all__ = ["BEGIN", "SHARES", "begin", "lost", "numbers", "rows", "temperatures"]
+__all__ = ["BEGIN", "SHARES", "begin", "heats", "lost", "numbers", "rows", "temperatures"]
 
 BEGIN = 0.1  # m/s
 #: Shares of the friction before slip that :func:`numbers` tells of.
@@ -37,6 +37,11 @@ def _at(values, place):
     return float(values[k] if k == 0 else values[k - 1] + part * (values[k] - values[k - 1]))
 
 
+def heats(series) -> bool:
+    """Whether a series is that of a slope whose slip surface has a slip law."""
+    return "cells_friction_rel" in series
+
+
 def rows(series) -> dict:
     """The rows of a series since the slope settled, which set slip back to 0: {name: array}. Raises RecordsError for a
     series of a slope whose slip surfaces have no slip law.
@@ -51,9 +56,9 @@ def rows(series) -> dict:
 
 def begin(series) -> float | None:
     """When the mean speed passes :data:`BEGIN` for the last time before it is largest [s], between two rows; None where
-    it does not, and for a slope that moved so fast as soon as it had settled. Raises RecordsError as :func:`rows` does.
+    it does not, and for a slope that moved so fast as soon as it had settled. Takes the series of any slope.
     """
-    series = rows(series)
+    series = since_settled(series)
     speed = series["speed_mean_m_per_s"][: int(np.argmax(series["speed_mean_m_per_s"])) + 1]
     first = int(np.flatnonzero(speed < BEGIN).max(initial=0))
     place = _passed(speed[first:], BEGIN)

@@ -80,7 +80,7 @@ def test_slopes_that_heat_have_friction_by_slip_and_speed_by_time():
     fig = figures.heated_slopes([("thick", run_of(5.0)), ("thin", run_of(1.0, 12.0)), ("thick", run_of(4.0))])
     left, right = fig.axes
     assert left.get_xscale() == "log" and left.get_xlim()[0] == 0.01 and left.get_ylim() == (0, 1.05)
-    assert [t.get_text() for t in left.get_legend().get_texts()] == ["thick", "thin"]
+    assert [t.get_text() for t in right.get_legend().get_texts()] == ["thick", "thin"]
     one, other, third = left.lines
     assert drawn.colour(one) == drawn.colour(third) != drawn.colour(other) and len(right.lines) == 3
     assert drawn.points(one) == pytest.approx(
@@ -93,6 +93,18 @@ def test_slopes_that_heat_have_friction_by_slip_and_speed_by_time():
     assert right.get_xlim() == pytest.approx((0, 19.9))
     assert right.get_xlabel() == "time since it moved at 0.1 m/s [s]" and left.get_xlabel() == "mean slip [m]"
     assert left.get_ylabel() == "friction by that before slip" and right.get_ylabel() == "mean speed [m/s]"
+
+
+def test_a_slope_without_a_slip_law_is_beside_them_dashed_and_by_its_speed_alone():
+    told = {name: values for name, values in run_of(5.0, 12.0).items() if not name.startswith("cells_")}
+    left, right = figures.heated_slopes([("heats", run_of(5.0)), ("is told", told)]).axes
+    assert len(left.lines) == 1 and [line.get_linestyle() for line in right.lines] == ["-", "--"]
+    assert drawn.points(right.lines[1]) == pytest.approx(
+        np.array([(late - 0.1, late) for late in np.arange(1.0, 19.0)])
+    )
+    assert [t.get_text() for t in right.get_legend().get_texts()] == ["heats", "is told"]
+    with pytest.raises(records.RecordsError, match="give at least one of a slope with a slip_law"):
+        figures.heated_slopes([("is told", told)])
 
 
 def test_slopes_that_stand_are_left_out_and_alone_they_are_refused():

@@ -212,4 +212,10 @@ WALL_COLUMNS = declared(
         "energy dissipated by sliding on the wall since the balance began, after settling",
         optional=True,
     ),
+    Column(
+        "heat_J",
+        "J/m",
+        "heat that the cells of a wall with a slip law got since the slope settled: what sliding dissipated there",
+        optional=True,
+    ),
 )

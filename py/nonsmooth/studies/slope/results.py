@@ -173,6 +173,7 @@ def numbers_of(section) -> list[str]:
     found += [f"t2_by_speed_s.{percent}" for percent in FASTER] + [f"t5_by_speed_s.{percent}" for percent in RESTING]
     found += [f"energy_losses_J_per_m.{name.split('_')[1]}" for name in records.LOSSES]
     found += [f"sliding_on_walls_J_per_m.{wall.name}" for wall in section.walls]
+    found += [f"heat_on_walls_J_per_m.{wall.name}" for wall in section.with_slip_law]
     if section.of_role("backstop"):
         for bands in TOE_BANDS:
             found += [f"{bands}.{one}.{name}" for one in ("towards_foot", "conjugate") for name in BAND]
@@ -322,12 +323,12 @@ def _highest_push(series, times, at):
     return None if None in found or not found else max(found)
 
 
-def _sliding_on_walls(path):
-    """{name: energy dissipated by sliding on a wall so far [J/m]}; empty where no world told it."""
+def _last_of_walls(path, column):
+    """{name: the last value of a column of ``walls.csv``}; empty where no wall has one."""
     if not path.exists():
         return {}
     walls = records.read_walls(path)
-    last = dict(zip(walls["wall"].tolist(), walls["energy_sliding_J"].tolist()))  # the last row of each
+    last = dict(zip(walls["wall"].tolist(), walls[column].tolist()))  # the last row of each
     return {name: value for name, value in last.items() if math.isfinite(value)}
 
 
@@ -478,7 +479,8 @@ def summarise(folder, section, state, threads=None) -> dict:
         "energy_losses_J_per_m": {name.split("_")[1]: float(series[name][-1]) for name in records.LOSSES}
         if counted
         else None,
-        "sliding_on_walls_J_per_m": _sliding_on_walls(folder / "walls.csv"),
+        "sliding_on_walls_J_per_m": _last_of_walls(folder / WALLS, "energy_sliding_J"),
+        "heat_on_walls_J_per_m": _last_of_walls(folder / WALLS, "heat_J"),
         "energy_correction_rel": None
         if not counted
         else float(series["energy_correction_J"][-1]) / turned

@@ -83,7 +83,13 @@ class WallSeries:
         rows = {name: forces[name] for name in self._slope.walls} | inside
         self.file.write(
             *(
-                self._row(name, *force, self._slip([laws[name]] if name in laws else []), slid.get(name))
+                self._row(
+                    name,
+                    *force,
+                    self._slip([laws[name]] if name in laws else []),
+                    slid.get(name),
+                    getattr(laws.get(name), "heat", None),
+                )
                 for name, force in rows.items()
             )
         )
@@ -150,13 +156,13 @@ class WallSeries:
             return {}
         return {name: math.fsum(losses[i] for i in ids if i < len(losses)) for name, ids in self._slope.walls.items()}
 
-    def _row(self, name, normal, shear, peak, slip, slid):
+    def _row(self, name, normal, shear, peak, slip, slid, heat):
         told = (
             (slip.mean, slip.weakened, slip.weakened / slip.touched if slip.touched else 0.0)
             if slip.counts
             else (None, None, None)
         )
-        return dict(zip(WALL_COLUMNS, (O.iter, O.time, name, normal, shear, peak, *told, slid), strict=True))
+        return dict(zip(WALL_COLUMNS, (O.iter, O.time, name, normal, shear, peak, *told, slid, heat), strict=True))
 
     def _slip(self, materials):
         """The Slip along walls or interfaces of these materials, those that do not weaken apart."""

@@ -54,6 +54,7 @@ def test_the_slope_fails_and_its_surface_is_heated_by_what_sliding_loses(slid):
     assert told["times_s"]["t2"] is not None, told["verdict_says"]
     lost = told["sliding_on_walls_J_per_m"]["circle"]
     assert heat == pytest.approx(lost, rel=1e-10) and heat > 1e5  # sums of the same numbers in another order
+    assert told["heat_on_walls_J_per_m"] == {"circle": heat}  # the ground has no slip law
     cells = run.slip_surface
     times, count = np.unique(cells["time_s"]), cells["cell"].max() + 1
     assert len(cells["step"]) == len(times) * count and set(cells["wall"]) == {"circle"}
@@ -247,10 +248,17 @@ def test_the_script_that_compares_slip_laws(tmp_path):
         disks=150,
         seeds=2,
         folder=f"'{tmp_path}/out'",
+        beside="'circle'",
+        beside_key="'materials.surface.slip_weakening.critical_slip'",
+        beside_values="[1,3]",
+        beside_labels="['told','told_at_3_m']",
     )
     assert done.returncode == 0, done.stderr
     told = json.loads((tmp_path / "out" / "heated.json").read_text())
-    assert {name: (one["packings"], one["failed"]) for name, one in told.items()} == {"0_01": (2, 2), "0_05": (2, 2)}
+    assert {name: (told[name]["packings"], told[name]["failed"]) for name in ("0_01", "0_05")} == {
+        "0_01": (2, 2),
+        "0_05": (2, 2),
+    }
     for value, key in ((0.01, "0_01"), (0.05, "0_05")):
         of_runs = [runs.open_run(tmp_path / "out" / "runs" / f"thickness={value}_seed={seed}") for seed in (1, 2)]
         lost = [heated_surface.lost(run.series, 0.5) for run in of_runs]
@@ -261,6 +269,13 @@ def test_the_script_that_compares_slip_laws(tmp_path):
             np.mean([run.summary["front_travel_m"] for run in of_runs])
         )
         assert f"{value}: 2 of 2 failed by water" in done.stdout
+    # beside them, slopes whose surface is told to weaken
+    assert {name: (told[name]["packings"], told[name]["failed"]) for name in ("1", "3")} == {"1": (2, 2), "3": (2, 2)}
+    of_runs = [runs.open_run(tmp_path / "out" / "beside" / "runs" / f"critical_slip=3_seed={seed}") for seed in (1, 2)]
+    assert told["3"]["when_failed"]["triggering_s"]["mean"] == pytest.approx(
+        np.mean([run.summary["triggering_s"] for run in of_runs])
+    )
+    assert "slip_m_50" not in told["3"]["when_failed"] and "told_at_3_m: 2 of 2 failed by water" in done.stdout
     # a thick zone takes more slip, and D_c goes with its thickness
     thin, thick = (told[key]["when_failed"]["slip_m_50"]["mean"] for key in ("0_01", "0_05"))
     assert thick > 2 * thin

@@ -386,6 +386,7 @@ KNOWN = {
     "energy_dissipated_J_per_m": (LOST, "energy"),
     "energy_losses_J_per_m": ({"sliding": 6e9, "rolling": 1e9, "impact": 2e9, "bonds": 0.5e9}, "energy"),
     "sliding_on_walls_J_per_m": ({}, None),  # it has no rows of walls
+    "heat_on_walls_J_per_m": ({}, None),
     "energy_correction_rel": (1.9e8 / LOST, None),
     "energy_error_rel": (
         0.01 * (LOST * 40 / 55 + 2e9 + 3e9) / LOST,

@@ -136,13 +136,21 @@ def test_bands_in_the_toe_are_told_with_their_numbers(tmp_path, monkeypatch):
 
 # ---- walls and contacts -------------------------------------------------------------------------------
 def test_what_slides_on_each_wall_is_that_of_its_last_row(tmp_path):
-    """Losses add up in a run, so the last row has all; a wall whose world does not tell them has none."""
+    """Losses add up in a run, so the last row has all; a wall whose world does not tell them has none. So has the heat
+    of walls with slip laws.
+    """
     blank = dict.fromkeys(known_slope.WALL_COLUMNS, 0.0)
     steps = ({"DP": 1.0, "SS": 30.0, "lake": None}, {"DP": 5.0, "SS": 40.0, "lake": None}, {"DP": 7.5})
     with records.SeriesWriter(tmp_path / "walls.csv", known_slope.WALL_COLUMNS, overwrite=True) as writer:
         for k, losses in enumerate(steps):
-            writer.write(*(blank | {"step": k, "wall": wall, "energy_sliding_J": e} for wall, e in losses.items()))
-    assert summary_of(tmp_path)["sliding_on_walls_J_per_m"] == {"DP": 7.5, "SS": 40.0}
+            rows = (
+                blank | {"step": k, "wall": wall, "energy_sliding_J": e, "heat_J": 2 * e if wall == "DP" else None}
+                for wall, e in losses.items()
+            )
+            writer.write(*rows)
+    told = summary_of(tmp_path)
+    assert told["sliding_on_walls_J_per_m"] == {"DP": 7.5, "SS": 40.0}
+    assert told["heat_on_walls_J_per_m"] == {"DP": 15.0}
 
 
 def test_soft_contacts_have_no_energies_and_no_solver(tmp_path):

@@ -394,6 +394,9 @@ class Summary:
         names, slid = (header.index(name) for name in ("wall", "energy_sliding_J"))
         return {row[names]: float(row[slid]) for row in rows[-3:]}  # DP, FB and SS of the last time
 
+    def heat_on_walls_J_per_m(self):
+        return {}  # no wall of it has a slip law
+
     def energy_dissipated_J_per_m(self):
         return sum(self.energy_losses_J_per_m().values())
 
