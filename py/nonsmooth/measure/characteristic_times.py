@@ -18,8 +18,9 @@ Rules (Taboada and Estrada 2009, section 6; what they leave open is ours):
   :func:`missing` says why.
 
 Weakening begins where D_c is reached by one per cent of the disks that fit along the slip surfaces, or half of the
-friction is lost along a tenth of the length of those with slip laws, which one cell at their end is not; where some lie
-one above another (stacks.py), D_c is reached so along one of them, and T is then the shear force on that one. A slope that failed dry has t4
+friction is lost along a tenth of the length of those with slip laws, so that one cell of many, at an end which few
+disks press on, does not begin it. Where some lie one above another (stacks.py), D_c is reached so along one of them, and
+T is then the shear force on that one. A slope that failed dry has t4
 and t5 of all of its rows. One second, 0.02 and 0.2 m/s, are those of the shipped section, and scaled for another
 (scales.py).
 """

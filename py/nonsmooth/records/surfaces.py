@@ -127,8 +127,6 @@ def since_set_back(surfaces) -> dict:
     ]
     begin = max(falls, default=-np.inf)
     return {
-        wall: {
-            name: values if name in PLACES else values[one["time_s"] >= begin] for name, values in one.items()
-        }
+        wall: {name: values if name in PLACES else values[one["time_s"] >= begin] for name, values in one.items()}
         for wall, one in surfaces.items()
     }

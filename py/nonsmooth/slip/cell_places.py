@@ -18,18 +18,14 @@ def _at(line, shares):
     return np.column_stack([np.interp(np.asarray(shares) * ways[-1], ways, axis) for axis in line.T])
 
 
-def _from_first(points, count, near):
-    """A polyline (n, 2) in the direction in which the middle of the first of ``count`` cells is the ``near`` one."""
-    line = np.asarray(points, float)
-    first, last = _at(line, [0.5 / count, 1 - 0.5 / count])
-    return line if np.hypot(*(first - near)) <= np.hypot(*(last - near)) else line[::-1]
-
-
 def parts(points, count, near):
     """The ``count`` cells of a wall along ``points`` (n, 2) [m], each a polyline; the first is that whose middle is
     nearest to ``near``, (x, y).
     """
-    line = _from_first(points, count, near)
+    line = np.asarray(points, float)
+    first, last = _at(line, [0.5 / count, 1 - 0.5 / count])
+    if np.hypot(*(last - near)) < np.hypot(*(first - near)):
+        line = line[::-1]
     ways, ends = _ways(line), np.linspace(0, 1, count + 1)
     found = []
     for k, (begin, end) in enumerate(np.stack([_at(line, ends[:-1]), _at(line, ends[1:])], axis=1)):
@@ -41,14 +37,17 @@ def parts(points, count, near):
 
 def middles(points, ends):
     """Middles of cells on a wall that was built along ``points`` (n, 2) [m], (count, 2): half way along each. ``ends``:
-    of the cells now, in their order, (count, 2, 2); where the wall has moved as a whole since, the middles have too.
+    of the cells now, in their order from one end of the wall, (count, 2, 2). Where the wall has moved as a whole since,
+    by less than a quarter of a turn, the middles have too.
     """
     count = len(ends)
     if not count:
         return np.zeros((0, 2))
-    line = _from_first(points, count, ends[0].mean(axis=0))
-    shares = np.arange(count) / count
-    begin, middle, end = (_at(line, shares + more / count) @ (1, 1j) for more in (0.0, 0.5, 1.0))
-    now, then = ends[:, 0] @ (1, 1j), ends[:, 1] @ (1, 1j)
-    found = now + (middle - begin) * (then - now) / (end - begin)
+    now, shares, line = ends @ (1, 1j), np.arange(count) / count, np.asarray(points, float)
+    fits = []
+    for way in (line, line[::-1]):
+        begin, middle, end = (_at(way, shares + more / count) @ (1, 1j) for more in (0.0, 0.5, 1.0))
+        turn = (now[:, 1] - now[:, 0]) / (end - begin)
+        fits.append((np.abs(turn - 1).sum(), now[:, 0] + turn * (middle - begin)))
+    found = min(fits, key=lambda one: one[0])[1]
     return np.column_stack([found.real, found.imag])

@@ -73,7 +73,9 @@ def forget(folder):
     remove(
         [folder / name for name in (SUMMARY, BREAKS, LEDGER, SURFACE, SURFACE_ARRAYS, BEGIN, END, *INPUTS, *FIGURES)]
         + _written(folder / SNAPSHOTS, r"\d{8,}\.npz")
-        + _written(folder / PARAVIEW, r"((disks|contacts|slip_surface)-\w+|walls|breaks)\.vtu|(avalanche|slip_surface)\.pvd"),
+        + _written(
+            folder / PARAVIEW, r"((disks|contacts|slip_surface)-\w+|walls|breaks)\.vtu|(avalanche|slip_surface)\.pvd"
+        ),
         EARLIER,
     )
     remove_parts(folder, folder / SNAPSHOTS, folder / PARAVIEW)
