@@ -14,6 +14,7 @@ CELLS = checks.holds(
     "wall cell time_s length_m slip_m friction hottest_degC", "give columns of slip_surface.csv, as run.slip_surface"
 )
 WIDTH, PANEL = 10.5, 2.2
+LEAST = 1.0  # °C of the scale, so that a slope that stands does not look hot
 SCALES = {"hottest_degC": ("hottest [°C]", "inferno"), "friction": ("friction, share left", "viridis")}
 
 
@@ -37,7 +38,8 @@ def slip_surface(cells, path=None, pdf=False, times=None):
     heat = [one["hottest_degC"] for one in walls.values() if "hottest_degC" in one]
     limits = {"friction": (0, 1)}
     if heat:
-        limits["hottest_degC"] = (min(map(np.nanmin, heat)), max(map(np.nanmax, heat)))
+        low, high = min(map(np.nanmin, heat)), max(map(np.nanmax, heat))
+        limits["hottest_degC"] = (low, max(high, low + LEAST))
     begin, end = _begin(walls.values()), -np.inf
     for ax, (wall, what) in zip(axes, panels):
         values, (label, colours), (low, high) = walls[wall][what], SCALES[what], limits[what]

@@ -94,6 +94,7 @@ MUTANTS = (
     mutant("surface-arrays-stale", EXPERIMENT, 'remove([self.folder / results.SURFACE_ARRAYS], "of an earlier end of the run")', "pass", "arrays of an earlier end stay while a run goes on", "test_heated_slopes.py"),
     mutant("surface-set-back", ARRAYS, "(np.diff(one[\"slip_m\"], axis=0) < 0)", "(np.diff(one[\"slip_m\"], axis=0) < -np.inf)", "what settling has slid is shown", "plain:test_surfaces.py", "plain:test_figures_slip_surface.py"),
     mutant("surface-scale", PICTURE, "vmin=low, vmax=high", "vmin=None, vmax=None", "each wall has a scale of its own", "plain:test_figures_slip_surface.py"),
+    mutant("surface-least", PICTURE, "max(high, low + LEAST)", "high", "rounding looks hot where nothing slides", "plain:test_figures_slip_surface.py"),
     mutant("surface-lines", "py/nonsmooth/figures/paraview.py", "np.argmin(np.abs(one[\"time_s\"] - time))", "len(one[\"time_s\"]) - 1", "all frames have the cells of the end", "test_paraview.py"),
     mutant("surface-tenth", "py/nonsmooth/measure/characteristic_times.py", "WEAKENED_LENGTH = 0.1", "WEAKENED_LENGTH = 0.01", "one cell at an end begins the weakening", "test_results.py"),
     mutant("surface-weak", SERIES, "(slip, left, left < WEAKENED)", "(slip, left, left > WEAKENED)", "the strong part of a surface is called weak", "test_heated_slopes.py"),

@@ -57,6 +57,9 @@ def test_walls_share_one_scale_of_temperature():
     for ax in panels(figures.slip_surface(both)):
         drawn_as[ax.get_ylabel()].append(ax.collections[0].get_clim())
     assert list(drawn_as.values()) == [[(15, 85), (0, 1)]] * 2
+    # a millionth of a degree is no heat
+    both["hottest_degC"] = 15 + 1e-6 * both["slip_m"]
+    assert panels(figures.slip_surface(both))[0].collections[0].get_clim() == (15, 16)
 
 
 def test_what_came_before_the_slope_settled_is_not_shown():
