@@ -47,7 +47,8 @@ def middles(points, ends):
     fits = []
     for way in (line, line[::-1]):
         begin, middle, end = (_at(way, shares + more / count) @ (1, 1j) for more in (0.0, 0.5, 1.0))
-        turn = (now[:, 1] - now[:, 0]) / (end - begin)
+        turn = np.ones(count, complex)  # also of a wall that ends where it begins
+        np.divide(now[:, 1] - now[:, 0], end - begin, out=turn, where=end != begin)
         fits.append((np.abs(turn - 1).sum(), now[:, 0] + turn * (middle - begin)))
     found = min(fits, key=lambda one: one[0])[1]
     return np.column_stack([found.real, found.imag])

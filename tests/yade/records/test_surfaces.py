@@ -166,3 +166,9 @@ def test_cells_of_a_wall_that_was_turned_and_pushed_have_their_middles_on_it():
     moved = places.middles(CORNER, cells @ turn.T + (7.0, -2.0))
     assert moved == pytest.approx(still @ turn.T + (7.0, -2.0), abs=1e-12)
     assert places.middles(CORNER, np.zeros((0, 2, 2))).shape == (0, 2)
+
+
+def test_the_one_cell_of_a_wall_that_ends_where_it_begins_has_its_middle_half_way_along():
+    """Of a square of 2 m: at the corner across."""
+    square = np.array([(0, 0), (2, 0), (2, 2), (0, 2), (0, 0)], float)
+    assert places.middles(square, np.zeros((1, 2, 2))).tolist() == [[2.0, 2.0]]
