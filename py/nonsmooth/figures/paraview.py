@@ -1,7 +1,10 @@
-"""Snapshots as files for ParaView: disks, contacts and walls, and the list of a run's frames. Written by meshio.
+"""Snapshots as files for ParaView: disks, contacts, walls and the cells of slip laws on them, and the lists of a run's
+frames. Written by meshio.
 
 In ParaView open ``avalanche.pvd``, choose the representation *Point Gaussian* (or the filter *Glyph*, sphere) with the
-scale array ``radius``, and colour by ``layer``, ``speed``, ``wet``, ``released`` or ``weakened``.
+scale array ``radius``, and colour by ``layer``, ``speed``, ``wet``, ``released`` or ``weakened``. Of walls with slip laws
+open ``slip_surface.pvd`` beside it, in the same times, and colour its lines (filter *Tube*) by ``friction``, ``slip_m``,
+``hottest_degC`` or another column of ``slip_surface.csv``.
 """
 
 from __future__ import annotations
@@ -13,8 +16,10 @@ from xml.sax.saxutils import quoteattr
 import meshio
 import numpy as np
 
-from ..records import RecordsError, given, read_breaks, read_snapshot
+from ..records import RecordsError, given, read_breaks, read_snapshot, read_surface_arrays
 from ..records.snapshots import given_with
+from ..records.surfaces import PLACES, TIMES
+from ..slip import cell_places
 from ..system import checks
 from ..system.whole_files import beside, write_atomically
 from ..world.scene_arrays import read as read_scene
@@ -27,6 +32,7 @@ __all__ = [
     "write_disks",
     "write_run",
     "write_scene_walls",
+    "write_slip_surface",
     "write_walls",
 ]
 
@@ -110,6 +116,38 @@ def write_walls(section, path):
     )
 
 
+@given.takes(
+    surfaces=given.surfaces("time_s x_m y_m"),
+    section=checks.has("walls layers", "give a Section, as section.load('circle') returns one"),
+    time=checks.real("give seconds, a finite number"),
+)
+def write_slip_surface(surfaces, section, time, path):
+    """The cells of slip laws along the walls as lines, at the row nearest to a ``time`` [s]: with the columns of
+    ``slip_surface.csv`` by their names, NaN where a wall's law has no such number, and ``wall``, as :func:`write_walls`
+    has it, and ``cell``. A cell on a bent wall has several lines.
+
+    ``surfaces``: as run.slip_surface_arrays, of a run of the ``section``. Raises RecordsError for a wall that the
+    section has not."""
+    walls = {wall.name: (k, wall.points) for k, wall in enumerate(section.walls)}
+    names = list(dict.fromkeys(name for one in surfaces.values() for name in one if name not in (*PLACES, *TIMES)))
+    points, data = [np.zeros((0, 2))], {name: [] for name in (*names, "wall", "cell")}
+    for name, one in surfaces.items():
+        if name not in walls:
+            raise RecordsError(f"surfaces: the section has no wall {name!r}; give those of a run of this section")
+        (number, line), row = walls[name], int(np.argmin(np.abs(one["time_s"] - time)))
+        count = len(one["x_m"])
+        cells = cell_places.parts(line, count, (one["x_m"][0], one["y_m"][0]))
+        points += [np.stack([cell[:-1], cell[1:]], axis=1).reshape(-1, 2) for cell in cells]
+        lines = [len(cell) - 1 for cell in cells]
+        values = {key: one[key][row] if key in one else np.full(count, np.nan) for key in names}
+        values |= {"wall": np.full(count, number, np.int32), "cell": np.arange(count, dtype=np.int32)}
+        for key, of_cells in values.items():
+            data[key].append(np.repeat(of_cells, lines))
+    points = np.concatenate(points)
+    kept = {key: np.concatenate(values) for key, values in data.items() if values}
+    return _write(path, points, [("line", np.arange(len(points)).reshape(-1, 2))], cell_data=kept)
+
+
 @given.takes(O=checks.has("bodies interactions", "give YADE's O"))
 def write_scene_walls(O, path):
     """The walls of a scene as they stand, for users of VTKRecorder, which knows no Segment and no Arc: one line for
@@ -156,13 +194,18 @@ def write_collection(entries, path):
 
 def write_run(folder, section, frames, progress=None):
     """All of a run for ParaView into ``folder``/vtk: ``frames``, a list of (time [s], snapshot file), as
-    ``avalanche.pvd``; walls; broken bonds; and the contacts of t0 and the end where those were recorded. Returns the
-    path of the .pvd file."""
+    ``avalanche.pvd``; where walls have slip laws, their cells at the same times as ``slip_surface.pvd``; walls; broken
+    bonds; and the contacts of t0 and the end where those were recorded. Returns the path of ``avalanche.pvd``."""
     folder = Path(folder)
     out = folder / "vtk"
-    entries = []
+    cells = folder / "slip_surface.csv"
+    surfaces = read_surface_arrays(cells) if cells.exists() else {}
+    entries, of_cells = [], []
     for k, (time, file) in enumerate(frames):
         entries.append((float(time), write_disks(read_snapshot(file), out / f"disks-{Path(file).stem}.vtu")))
+        if surfaces:
+            path = out / f"slip_surface-{Path(file).stem}.vtu"
+            of_cells.append((float(time), write_slip_surface(surfaces, section, float(time), path)))
         if progress:
             progress((k + 1) / len(frames))
     write_walls(section, out / "walls.vtu")
@@ -171,4 +214,6 @@ def write_run(folder, section, frames, progress=None):
             write_contacts(read_snapshot(folder / f"{name}.npz"), out / f"contacts-{name}.vtu")
     if (folder / "breaks.csv").exists():
         write_breaks(read_breaks(folder / "breaks.csv"), out / "breaks.vtu")
+    if surfaces:
+        write_collection(of_cells, out / "slip_surface.pvd")
     return write_collection(entries, out / "avalanche.pvd")

@@ -12,6 +12,7 @@ import math
 import numpy as np
 
 from ..records import RecordsError, since_settled
+from ..system import checks
 
 __all__ = ["BEGIN", "SHARES", "begin", "heats", "lost", "numbers", "rows", "temperatures"]
 
@@ -82,10 +83,22 @@ def lost(series, share) -> dict | None:
     }
 
 
+def _check(walls, cells):
+    """Raises RecordsError where one of the ``walls`` is not in the cells."""
+    there = list(dict.fromkeys(np.asarray(cells["wall"]).tolist()))
+    wrong = [walls] if isinstance(walls, str) else [name for name in walls if name not in there]
+    if wrong:
+        raise RecordsError(
+            f"walls: {checks.shown(wrong[0])}: give a list of walls that have cells: {', '.join(there) or 'there are none'}"
+        )
+
+
 def temperatures(cells, walls, time) -> tuple[float, float]:
     """Mean temperature of the zone by length, and the highest across it [°C], in the row of ``cells`` (columns of
     ``slip_surface.csv``) that is nearest to a ``time`` [s], of these ``walls``; NaN for laws without a zone that heats.
+    Raises RecordsError for a wall that is not in the cells.
     """
+    _check(walls, cells)
     now = cells["time_s"] == cells["time_s"][np.argmin(np.abs(cells["time_s"] - time))]
     now &= np.isin(cells["wall"], list(walls))
     heat = cells["temperature_degC"][now]
@@ -97,8 +110,9 @@ def temperatures(cells, walls, time) -> tuple[float, float]:
 def numbers(series, cells, walls) -> dict[str, float | None]:
     """What a run tells of its slip surface: for each of :data:`SHARES`, in per cent, ``after_s_10``, ``slip_m_10``,
     ``speed_m_per_s_10``, ``temperature_degC_10`` and ``hottest_degC_10``, None where more is left; and
-    ``friction_rel``, the least that was left. Arguments as of the functions above.
+    ``friction_rel``, the least that was left. Arguments and errors as of the functions above.
     """
+    _check(walls, cells)
     found: dict[str, float | None] = {"friction_rel": float(np.min(rows(series)["cells_friction_rel"]))}
     for share in SHARES:
         one, percent = lost(series, share), f"{100 * share:g}"

@@ -1,5 +1,5 @@
-"""Records of a run: the time series (``series.csv``, ``walls.csv``), the bonds that broke (``breaks.csv``) and the
-snapshots (``.npz``).
+"""Records of a run: the time series (``series.csv``, ``walls.csv``), cells along walls (``slip_surface.csv``,
+``slip_surface.h5``), the bonds that broke (``breaks.csv``) and the snapshots (``.npz``).
 
 All can be read and written without YADE. All quantities are in SI units, forces and energies per metre of
 thickness (the model is two-dimensional). A study declares the columns of its series; an opened run says what they are
@@ -12,6 +12,7 @@ from .columns import LOSSES, OWN, Column, column, declared, own_columns, stem
 from .error import RecordsError
 from .series import SeriesWriter, broken_bonds, kept, read_eroded, read_series, read_surfaces, read_walls, since_settled
 from .snapshots import Snapshot, in_both, read_snapshot, write_snapshot
+from .surfaces import read_surface_arrays, since_set_back, surface_arrays, write_surface_arrays
 
 __all__ = [
     "BREAK_COLUMNS",
@@ -31,10 +32,14 @@ __all__ = [
     "read_eroded",
     "read_series",
     "read_snapshot",
+    "read_surface_arrays",
     "read_surfaces",
     "read_walls",
+    "since_set_back",
     "since_settled",
     "stem",
+    "surface_arrays",
     "write_breaks",
     "write_snapshot",
+    "write_surface_arrays",
 ]

@@ -214,6 +214,13 @@ class SlopeRun(StudyRun):
         """
         return records.read_surfaces(self._file(results.SURFACE))
 
+    @cached_property
+    def slip_surface_arrays(self) -> dict:
+        """The same by walls: {wall: {column: array}}, in time, in space, or (times, cells), see
+        records.surface_arrays; of a run that goes on, or was killed, too.
+        """
+        return records.surface_arrays(self.slip_surface)
+
     @property
     def snapshots(self) -> dict:
         """Files of the snapshots, by their steps, and "t0" and "end" where the run has come so far: {name: path}."""

@@ -7,6 +7,8 @@ REACTION, MELT, TABLE, MATERIAL = SLIP + "decomposition.cpp", SLIP + "shear_melt
 CELLS, GRID = "pkg/dem/SlipSurfaceMat.cpp", "pkg/dem/WallCells.cpp"
 SERIES, PICTURE = "py/nonsmooth/studies/slope/surface_series.py", "py/nonsmooth/figures/slip_surface.py"
 HEATED = "py/nonsmooth/measure/heated_surface.py"
+PLACES, ARRAYS = "py/nonsmooth/slip/cell_places.py", "py/nonsmooth/records/surfaces.py"
+EXPERIMENT = "py/nonsmooth/studies/slope/experiment.py"
 BUILDING, CHECKS = "py/nonsmooth/model/section/building.py", "py/nonsmooth/model/section/checks.py"
 BLOCK, SETS, FIGURE = ("py/nonsmooth/slip/block.py", "py/nonsmooth/slip/parameter_sets.py", "py/nonsmooth/figures/sliding_block.py")
 
@@ -78,17 +80,28 @@ MUTANTS = (
     mutant("surface-impacts", "pkg/dem/seam/ContactSeamScatter.cpp", "0.5 * std::abs(u0.t + u1.t)", "std::abs(u0.t + u1.t)", "slip is twice the way", "test_slip_surface.py"),
     mutant("surface-rows", SERIES, '"x_m": middle[:, 0]', '"x_m": middle[:, 1]', "places of cells are exchanged", "test_heated_slopes.py"),
     mutant("surface-hottest", SERIES, ".max(axis=1)", ".min(axis=1)", "the hottest is the coldest", "test_heated_slopes.py"),
-    mutant("surface-picture", PICTURE, "np.cumsum(length)", "np.arange(1.0, count + 1)", "cells are drawn as if they were one metre long", "plain:test_figures_slip_surface.py"),
+    mutant("surface-picture", PICTURE, "np.cumsum(one[\"length_m\"])", "np.arange(1.0, len(one[\"length_m\"]) + 1)", "cells are drawn as if they were one metre long", "plain:test_figures_slip_surface.py"),
     mutant("surface-law-friction", BUILDING, "if abs(raw[key] - friction) > 1e-5 * (1 + friction):", "if False:", "a wall has another friction than its law", "test_heated_slopes.py"),
     mutant("surface-law-water", CHECKS, "section.release_distance < x1 - x0", "False", "water goes where a law has its own pressure", "test_heated_slopes.py"),
     mutant("surface-saved", CELLS, "slip.assign(cells.slip.begin(), cells.slip.end())", "slip.clear()", "what has slipped is not saved", "test_slip_surface.py"),
     mutant("surface-asked", SLIP + "law.cpp", "!(step > 0)", "true",
            "to ask for friction changes the step in force", "test_slip_laws.py"),
+    mutant("surface-vapour", SERIES, 'found.get("vapour")', 'found.get("none")', "nobody is told that water boils", "test_heated_slopes.py"),
+    mutant("surface-middle", PLACES, "now[:, 0] + turn * (middle - begin)", "now.mean(axis=1)", "a cell on a bent wall lies on its chord", "plain:test_surfaces.py", "test_heated_slopes.py"),
+    mutant("surface-direction", PLACES, "if np.hypot(*(last - near)) < np.hypot(*(first - near)):", "if False:", "cells lie from the other end on", "plain:test_surfaces.py"),
+    mutant("surface-arrays", ARRAYS, "values[mine].reshape(times, count)", "values[mine].reshape(count, times).T", "cells and times are exchanged", "plain:test_surfaces.py"),
+    mutant("surface-arrays-unknown", ARRAYS, "if not np.isnan(table).all():", "if True:", "what a law does not know is there", "plain:test_surfaces.py"),
+    mutant("surface-arrays-stale", EXPERIMENT, 'remove([self.folder / results.SURFACE_ARRAYS], "of an earlier end of the run")', "pass", "arrays of an earlier end stay while a run goes on", "test_heated_slopes.py"),
+    mutant("surface-set-back", ARRAYS, "(np.diff(one[\"slip_m\"], axis=0) < 0)", "(np.diff(one[\"slip_m\"], axis=0) < -np.inf)", "what settling has slid is shown", "plain:test_surfaces.py", "plain:test_figures_slip_surface.py"),
+    mutant("surface-scale", PICTURE, "vmin=low, vmax=high", "vmin=None, vmax=None", "each wall has a scale of its own", "plain:test_figures_slip_surface.py"),
+    mutant("surface-least", PICTURE, "max(high, low + LEAST)", "high", "rounding looks hot where nothing slides", "plain:test_figures_slip_surface.py"),
+    mutant("surface-lines", "py/nonsmooth/figures/paraview.py", "np.argmin(np.abs(one[\"time_s\"] - time))", "len(one[\"time_s\"]) - 1", "all frames have the cells of the end", "test_paraview.py"),
+    mutant("surface-tenth", "py/nonsmooth/measure/characteristic_times.py", "WEAKENED_LENGTH = 0.1", "WEAKENED_LENGTH = 0.01", "one cell at an end begins the weakening", "test_results.py"),
     mutant("surface-weak", SERIES, "(slip, left, left < WEAKENED)", "(slip, left, left > WEAKENED)", "the strong part of a surface is called weak", "test_heated_slopes.py"),
     mutant("surface-means", SERIES, "np.average(one, weights=length)", "np.mean(one)", "a short cell counts as much as a long one", "test_heated_slopes.py"),
     mutant("surface-ground", "py/nonsmooth/model/section/section.py", 'for wall in self.with_slip_law if wall.role == "slip")', "for wall in self.with_slip_law)",
            "ground with a slip law counts as a slip surface", "test_heated_slopes.py"),
-    mutant("surface-begins", "py/nonsmooth/measure/characteristic_times.py", '(series[CELLS] >= WEAKENED) & (series["time_s"] >= state["t0"])', "series[CELLS] >= WEAKENED",
+    mutant("surface-begins", "py/nonsmooth/measure/characteristic_times.py", '(series[CELLS] >= WEAKENED_LENGTH) & (series["time_s"] >= state["t0"])', "series[CELLS] >= WEAKENED_LENGTH",
            "a surface that weakened while it settled weakens before the water", "test_results.py"),
     mutant("surface-length", "py/nonsmooth/world/scene.py", "cellLength=m.slip_law.cell_length", "cellLength=0.0", "a section's cells have the length of any", "test_section_keys.py"),
     # ---- slopes that heat

@@ -49,6 +49,39 @@ def test_each_wall_has_its_panels_and_a_law_without_heat_has_none_of_temperature
     assert len(panels(figures.slip_surface(cells(("a", "b"))))) == 4
 
 
+def test_walls_share_one_scale_of_temperature():
+    """That of a has 15 to 65 °C, that of b 20 degrees more; both have friction from 0 to 1."""
+    both = cells(("a", "b"))
+    both["hottest_degC"] = both["hottest_degC"] + np.where(both["wall"] == "b", 20, 0)
+    drawn_as = {ax.get_ylabel(): [] for ax in panels(figures.slip_surface(both))}
+    for ax in panels(figures.slip_surface(both)):
+        drawn_as[ax.get_ylabel()].append(ax.collections[0].get_clim())
+    assert list(drawn_as.values()) == [[(15, 85), (0, 1)]] * 2
+    # a millionth of a degree is no heat
+    both["hottest_degC"] = 15 + 1e-6 * both["slip_m"]
+    assert panels(figures.slip_surface(both))[0].collections[0].get_clim() == (15, 16)
+
+
+def test_what_came_before_the_slope_settled_is_not_shown():
+    """Slip of 3 m, 400 °C and a tenth of the friction, which were set back at 3 s; friction is by that of the first
+    row. What moved before alone gives no figure.
+    """
+    settled = cells()
+    early = settled["time_s"] < 3
+    for name, values in (("slip_m", 3.0 + settled["time_s"]), ("hottest_degC", 400.0), ("friction", 0.04)):
+        settled[name] = np.where(early & (settled["time_s"] > 0), values, settled[name])
+    warm, left = panels(figures.slip_surface(settled))
+    assert warm.collections[0].get_coordinates()[0, :, 0].tolist() == [*range(3, 10), 10]
+    assert warm.collections[0].get_clim() == (15, 65) and warm.get_xlim() == pytest.approx((5 - 0.4, 10))
+    assert left.collections[0].get_array().reshape(3, 7)[:, 0].tolist() == [1.0] * 3
+    stood = settled | {"slip_m": np.where(early, settled["slip_m"], 0.0)}
+    with pytest.raises(records.RecordsError, match="no cell has slipped"):
+        figures.slip_surface(stood)
+    # what has slid little since is shown, however much came before
+    little = settled | {"slip_m": np.where(early, settled["slip_m"], 1e-4 * settled["slip_m"])}
+    assert panels(figures.slip_surface(little))[0].get_xlim() == pytest.approx((5 - 0.4, 10))
+
+
 def test_where_nothing_has_slipped_there_is_no_figure():
     still = cells()
     still["slip_m"] = 0 * still["slip_m"]

@@ -6,8 +6,10 @@ import xml.etree.ElementTree as ElementTree
 import meshio
 import numpy as np
 
+import pytest
 import synthetic_slope as synthetic
 from yade.nonsmooth import paraview, records, section
+from yade.nonsmooth.studies.slope.columns import SURFACE_COLUMNS
 
 
 def hand(x=(1.0, 3.0, -4.0), y=(2.0, 2.5, 7.0)):
@@ -83,8 +85,88 @@ def test_walls_are_those_of_the_section_in_its_order(tmp_path):
     assert sorted(set(number)) == list(range(len(slope.walls)))
 
 
+def surfaces(slope, *walls):
+    """{wall: arrays} of walls with two cells each at 5, 60 and 61 s, from the wall's end on; the last has no heat."""
+    found = {}
+    for number, name in enumerate(walls):
+        (line,) = (wall.points for wall in slope.walls if wall.name == name)
+        ways = np.concatenate(([0.0], np.cumsum(np.hypot(*np.diff(line, axis=0).T))))
+        middles = [np.interp(share * ways[-1], ways, line[:, axis]) for axis in (0, 1) for share in (0.75, 0.25)]
+        slip = np.array([[0.0, 1.0], [2.0, 3.0], [4.0, 5.0]]) + 10 * number
+        found[name] = {
+            "step": np.array([1, 2, 3]),
+            "time_s": np.array([5.0, 60.0, 61.0]),
+            "x_m": np.array(middles[:2]),
+            "y_m": np.array(middles[2:]),
+            "length_m": np.full(2, ways[-1] / 2),
+            "slip_m": slip,
+            "friction": 0.4 - 0.01 * slip,
+        } | ({"hottest_degC": 15 + slip} if number < len(walls) - 1 else {})
+    return found
+
+
+def test_cells_of_slip_laws_are_lines_on_their_walls_with_their_columns(tmp_path):
+    slope = section.load("jiufengershan")
+    names = [wall.name for wall in slope.walls]
+    of_walls = surfaces(slope, "SS", "DP")
+    path = paraview.write_slip_surface(of_walls, slope, 60.2, tmp_path / "s.vtu")
+    found = meshio.read(path)
+    ((lines,), points) = found.cells, found.points[:, :2]
+    fields = {name: values[0] for name, values in found.cell_data.items()}
+    assert lines.type == "line" and set(fields) == {"wall", "cell", "slip_m", "friction", "hottest_degC"}
+    lengths = np.hypot(*(points[lines.data[:, 1]] - points[lines.data[:, 0]]).T)
+    for name, slip in (("SS", (2.0, 3.0)), ("DP", (12.0, 13.0))):
+        (line,) = (wall.points for wall in slope.walls if wall.name == name)
+        whole, of_wall = np.hypot(*np.diff(line, axis=0).T).sum(), fields["wall"] == names.index(name)
+        for cell in (0, 1):
+            mine = of_wall & (fields["cell"] == cell)
+            assert lengths[mine].sum() == pytest.approx(whole / 2) and set(fields["slip_m"][mine]) == {slip[cell]}
+            assert fields["friction"][mine] == pytest.approx(0.4 - 0.01 * slip[cell])
+            heat = fields["hottest_degC"][mine]
+            assert np.isnan(heat).all() if name == "DP" else set(heat) == {15 + slip[cell]}
+        # the first cell begins at the wall's end, and all of its vertices are there
+        assert points[lines.data[of_wall][0, 0]].tolist() == line[-1].tolist()
+        there = {tuple(p) for p in points[lines.data[of_wall]].reshape(-1, 2).tolist()}
+        assert {tuple(p) for p in line.tolist()} <= there
+    with pytest.raises(records.RecordsError, match="the section has no wall 'XY'"):
+        paraview.write_slip_surface({"XY": of_walls["DP"]}, slope, 5.0, tmp_path / "x.vtu")
+    empty = ElementTree.parse(paraview.write_slip_surface({}, slope, 5.0, tmp_path / "x.vtu")).getroot()
+    assert empty.find("./UnstructuredGrid/Piece").get("NumberOfCells") == "0"
+
+
+def test_a_run_with_slip_laws_has_their_cells_at_the_times_of_its_disks(tmp_path):
+    (tmp_path / "snapshots").mkdir()
+    slope = section.load("jiufengershan")
+    one = surfaces(slope, "DP")["DP"]
+    with records.SeriesWriter(tmp_path / "slip_surface.csv", SURFACE_COLUMNS) as file:
+        for row in range(3):
+            file.write(*(row_of(one, row, cell) for cell in (0, 1)))
+    frames = [
+        (time, records.write_snapshot(tmp_path / "snapshots" / f"{k:08d}.npz", **vars(hand())))
+        for k, time in enumerate((5.0, 61.0))
+    ]
+    made = paraview.write_run(tmp_path, slope, frames)
+    entries = ElementTree.parse(made.with_name("slip_surface.pvd")).getroot().findall("./Collection/DataSet")
+    assert [(float(e.get("timestep")), e.get("file")) for e in entries] == [
+        (5.0, "slip_surface-00000000.vtu"),
+        (61.0, "slip_surface-00000001.vtu"),
+    ]
+    slips = [meshio.read(made.parent / e.get("file")).cell_data["slip_m"][0].tolist() for e in entries]
+    assert slips == [[0.0, 1.0], [4.0, 5.0]]
+    disks = ElementTree.parse(made).getroot().findall("./Collection/DataSet")
+    assert [e.get("timestep") for e in disks] == [e.get("timestep") for e in entries]
+
+
+def row_of(one, row, cell):
+    """A row of slip_surface.csv of one wall, DP."""
+    found = dict.fromkeys(SURFACE_COLUMNS) | {"step": row + 1, "time_s": one["time_s"][row], "wall": "DP", "cell": cell}
+    found |= {name: one[name][cell] for name in ("x_m", "y_m", "length_m")}
+    found |= {name: one[name][row, cell] for name in ("slip_m", "friction")}
+    return found | {"slip_rate_m_per_s": 0.0, "normal_stress_Pa": 1e6}
+
+
 def test_a_run(tmp_path):
-    """Frames by time in their order, walls, broken bonds, and the contacts of t0."""
+    """Frames by time in their order, walls, broken bonds, and the contacts of t0; nothing of slip laws."""
     (tmp_path / "snapshots").mkdir()
     frames, done = [], []
     for k, time in enumerate((5.0, 60.0)):

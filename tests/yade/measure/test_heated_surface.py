@@ -93,6 +93,16 @@ def test_numbers_of_a_run():
     assert found["temperature_degC_10"] is None and found["after_s_10"] is not None
 
 
+@pytest.mark.parametrize("walls, wrong", [(["a", "c"], "'c'"), ("a", "'a'"), ("ab", "'ab'")])
+def test_a_wall_that_has_no_cells_is_refused(walls, wrong):
+    for ask in (lambda: heated.numbers(series(), CELLS, walls), lambda: heated.temperatures(CELLS, walls, 13.0)):
+        with pytest.raises(records.RecordsError, match=f"^walls: {wrong}: give a list of walls that have cells: a, b$"):
+            ask()
+    # also where nothing is weak enough to ask for temperatures
+    with pytest.raises(records.RecordsError, match="^walls: "):
+        heated.numbers(series(cells_friction_rel=lambda t: 1 + 0 * t), CELLS, walls)
+
+
 def test_a_series_without_cells_is_refused():
     plain = {name: values for name, values in series().items() if not name.startswith("cells")}
     for ask in (heated.begin, heated.rows, lambda s: heated.lost(s, 0.1)):

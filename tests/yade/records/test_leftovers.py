@@ -28,6 +28,9 @@ FILES = (
 )
 
 
+OF_CELLS = ("slip_surface.h5", "vtk/slip_surface-00000100.vtu", "vtk/slip_surface.pvd")
+
+
 @pytest.fixture(scope="module")
 def small(tmp_path_factory):
     """A slope whose dry rest ends at 2 s."""
@@ -114,6 +117,7 @@ USERS = (
     "end.npz",
     "series.csv",
     "section.yaml",
+    "slip_surface.h5",
     "vtk/mine.vtu",
     "snapshots/00000001.npz",
     "checkpoint/mine",
@@ -138,15 +142,14 @@ def test_files_of_a_user_beside_those_of_a_run_stay(small, tmp_path):
     ParaView's files.
     """
     run(small, tmp_path, 0.3)
-    put(tmp_path, "forces.png", "vtk/disks-00000100.vtu", "snapshots/00000001.npz")
+    own = ("forces.png", "vtk/disks-00000100.vtu", "snapshots/00000001.npz", *OF_CELLS)
+    put(tmp_path, *own)
     mine = ("mine.txt", "vtk/mine.vtu", "snapshots/best.npz", "snapshots/12345.npz")
     put(tmp_path, *mine)
     assert results.foreign(tmp_path) is None
     run(small, tmp_path, 0.1)
     assert all((tmp_path / name).exists() for name in mine)
-    assert not any(
-        (tmp_path / name).exists() for name in ("forces.png", "vtk/disks-00000100.vtu", "snapshots/00000001.npz")
-    )
+    assert not any((tmp_path / name).exists() for name in own)
 
 
 def test_a_run_that_was_killed_while_it_began_is_known(tmp_path):

@@ -175,6 +175,7 @@ SURFACE_COLUMNS = declared(
     Column("temperature_degC", "°C", "mean temperature of the zone", optional=True),
     Column("hottest_degC", "°C", "highest temperature across the zone", optional=True),
     Column("pressure_Pa", "Pa", "mean excess pore pressure of the zone", optional=True),
+    Column("vapour", "1", "1 from where the water of the zone boils on, 0 before", optional=True),
     Column("reacted", "-", "share that has reacted, of the zone", optional=True),
     Column("melt_m", "m", "thickness of the layer of melt", optional=True),
 )

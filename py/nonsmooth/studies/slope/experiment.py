@@ -31,6 +31,7 @@ from ...model.section import Section, data as section_data
 from ...packing.files import Packing
 from ...records import checkpoints
 from ...system import checks, keys
+from ...system.whole_files import remove
 from ...water import WaterError, field_files, of_section
 from ...world import pore_pressure, tables, worlds
 from ...world.stepping import advance
@@ -225,8 +226,14 @@ class Experiment(driver.Course):
         self._decide(seen)
         self.progress(self.state.stage, O.time, course.foreseen(self.state, O.time, self.section))
 
+    def _open(self):
+        super()._open()
+        remove([self.folder / results.SURFACE_ARRAYS], "of an earlier end of the run")
+
     def _finish(self):
         self.checkpoint()
+        if self.surfaces is not None:
+            self.surfaces.write_arrays(self.folder / results.SURFACE_ARRAYS)
 
     def _decide(self, seen):
         """Goes on to the next state, and does what the change means."""

@@ -53,6 +53,7 @@ HEAD = b"step,time_s,"  # begins the series of every run
 INPUTS = (section_shaking.FILE, of_section.FILE)  # that its section.yaml names
 LEDGER = "eroded.csv"  # of disks that were taken out
 SURFACE = "slip_surface.csv"  # of cells along walls with slip laws
+SURFACE_ARRAYS = "slip_surface.h5"  # the same, of a run that has ended
 SUMMARY, BREAKS, BEGIN, END = "summary.json", "breaks.csv", "t0.npz", "end.npz"
 SNAPSHOTS, PARAVIEW = frames.FOLDER, "vtk"
 #: Names of the figures in the order in which they are drawn; of their files with ".png".
@@ -70,9 +71,11 @@ def forget(folder):
     """
     folder = Path(folder)
     remove(
-        [folder / name for name in (SUMMARY, BREAKS, LEDGER, SURFACE, BEGIN, END, *INPUTS, *FIGURES)]
+        [folder / name for name in (SUMMARY, BREAKS, LEDGER, SURFACE, SURFACE_ARRAYS, BEGIN, END, *INPUTS, *FIGURES)]
         + _written(folder / SNAPSHOTS, r"\d{8,}\.npz")
-        + _written(folder / PARAVIEW, r"(disks-\w+|contacts-\w+|walls|breaks)\.vtu|avalanche\.pvd"),
+        + _written(
+            folder / PARAVIEW, r"((disks|contacts|slip_surface)-\w+|walls|breaks)\.vtu|(avalanche|slip_surface)\.pvd"
+        ),
         EARLIER,
     )
     remove_parts(folder, folder / SNAPSHOTS, folder / PARAVIEW)
@@ -98,7 +101,8 @@ def foreign(folder):
         pass
     if (folder / "key").exists():  # kept_runs has begun one
         return None
-    names = (SERIES, WALLS, SECTION, *INPUTS, SUMMARY, BREAKS, LEDGER, SURFACE, BEGIN, END, *FIGURES, "checkpoint")
+    of_run = (SERIES, WALLS, SECTION, *INPUTS, SUMMARY, BREAKS, LEDGER, SURFACE, SURFACE_ARRAYS, BEGIN, END)
+    names = (*of_run, *FIGURES, "checkpoint")
     found = [folder / name for name in names if (folder / name).exists()]
     found += _written(folder / SNAPSHOTS, r"\d{8,}\.npz") + _written(folder / PARAVIEW, r".*\.(vtu|pvd)")
     return found[0].relative_to(folder).as_posix() if found else None
@@ -121,7 +125,8 @@ def forget_later(folder, stage, step):
     """
     folder = Path(folder)
     later = [path for path in whole(folder / SNAPSHOTS, "*.npz") if path.stem.isdecimal() and int(path.stem) > step]
-    remove(later + [folder / BEGIN] * (stage in ("settle", "dry")) + [folder / END] * (stage != "done"), EARLIER)
+    ends = [folder / END, folder / SURFACE_ARRAYS]
+    remove(later + [folder / BEGIN] * (stage in ("settle", "dry")) + ends * (stage != "done"), EARLIER)
     remove_parts(folder, folder / SNAPSHOTS, folder / PARAVIEW, folder / "checkpoint")
 
 

@@ -156,11 +156,13 @@ class Drawing:
         return figures.pore_pressures(self.field, list(times), self.section, path, flow=flow)
 
     def _slip_surface(self, path):
-        """Nothing where no wall has a slip law, or nothing has slid on one."""
+        """Nothing where no wall has a slip law, or nothing has slid on one since the slope settled."""
         if not self.section.with_slip_law:
             return None
         cells = records.read_surfaces(self.folder / results.SURFACE)
-        return figures.slip_surface(cells, path, times=self.times) if np.any(cells["slip_m"] > 0) else None
+        since = records.since_set_back(records.surface_arrays(cells))
+        slid = any(one["slip_m"].any() for one in since.values())
+        return figures.slip_surface(cells, path, times=self.times) if slid else None
 
     def _toe(self, path):
         """Nothing where there is no backstop, where the toe has few disks, and where the run has no snapshots of its

@@ -1,5 +1,5 @@
 """What slip laws have found in the cells along the walls of a slope: a row for each cell and time in
-``slip_surface.csv``.
+``slip_surface.csv``, and at the end the same as arrays, in ``slip_surface.h5``.
 """
 
 from __future__ import annotations
@@ -9,7 +9,7 @@ import numpy as np
 from yade import O
 
 from ... import records
-from ...slip import surface
+from ...slip import cell_places, surface
 from .columns import OF_SURFACES, SURFACE_COLUMNS
 
 __all__ = ["SurfaceSeries", "means"]
@@ -25,7 +25,7 @@ class SurfaceSeries:
     def __init__(self, built, path, mark=None):
         materials = built.section.materials
         self._walls = {
-            wall.name: (built.wall_material(wall.name), materials[wall.material].slip_law.make())
+            wall.name: (built.wall_material(wall.name), materials[wall.material].slip_law.make(), wall.points)
             for wall in built.section.with_slip_law
         }
         self._sliding = [(wall.name, materials[wall.material].friction) for wall in built.section.heated_surfaces]
@@ -34,9 +34,15 @@ class SurfaceSeries:
     def take(self):
         """Writes the rows of the present step; returns the columns :data:`.columns.OF_SURFACES` of the slip surfaces,
         {name: value}, none where no slip surface has a slip law."""
-        cells = {name: surface.cells(material) for name, (material, _) in self._walls.items()}
-        self.file.write(*(row for name, (_, law) in self._walls.items() for row in _rows(name, cells[name], law)))
+        cells = {name: surface.cells(material) for name, (material, *_) in self._walls.items()}
+        self.file.write(
+            *(row for name, (_, law, points) in self._walls.items() for row in _rows(name, cells[name], law, points))
+        )
         return means([(cells[name], friction) for name, friction in self._sliding]) if self._sliding else {}
+
+    def write_arrays(self, path):
+        """Writes all rows so far as :func:`.records.write_surface_arrays` does. Raises WriteError."""
+        records.write_surface_arrays(records.read_surface_arrays(self.file.path), path, SURFACE_COLUMNS)
 
 
 def means(cells):
@@ -53,9 +59,9 @@ def means(cells):
     return {name: float(np.average(one, weights=length)) for name, one in zip(OF_SURFACES, found, strict=True)}
 
 
-def _rows(name, found, law):
-    """A row for each cell of a wall."""
-    middle = found["ends_m"].mean(axis=1)
+def _rows(name, found, law, points):
+    """A row for each cell of a wall along ``points``."""
+    middle = cell_places.middles(points, found["ends_m"])
     columns = {
         "cell": np.arange(len(middle)),
         "x_m": middle[:, 0],
@@ -79,6 +85,7 @@ def _heated(found, law):
         "temperature_degC": mean("temperature"),
         "hottest_degC": hottest,
         "pressure_Pa": mean("pressure"),
+        "vapour": found.get("vapour"),
         "reacted": mean("reacted"),
         "melt_m": found.get("melt_thickness"),
     }

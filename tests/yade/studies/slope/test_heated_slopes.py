@@ -4,14 +4,18 @@ bytes, what is written and drawn, and what is refused.
 
 import json
 
+import h5py
 import numpy as np
 import pytest
 import shell
 import yaml
-from yade.nonsmooth import experiment, runs, section, similar, worlds
+from yade.nonsmooth import experiment, records, runs, section, similar, worlds
 from yade.nonsmooth.measure import heated_surface
+from yade.nonsmooth.model import geometry
 from yade.nonsmooth.model.section import data as section_data
+from yade.nonsmooth.slip import laws
 from yade.nonsmooth.studies.safety.asked import Asked, SafetyError
+from yade.nonsmooth.studies.slope.columns import SURFACE_COLUMNS
 from yade.nonsmooth.studies.slope.surface_series import means
 
 pytestmark = pytest.mark.usefixtures("empty")
@@ -70,7 +74,7 @@ def test_the_slope_fails_and_its_surface_is_heated_by_what_sliding_loses(slid):
     still = end["slip_m"] == 0
     assert end["friction"][still] == pytest.approx(0.6) and end["temperature_degC"][still] == pytest.approx(15)
     assert np.all(end["hottest_degC"] >= end["temperature_degC"]) and np.isnan(cells["melt_m"]).all()
-    assert np.all(end["pressure_Pa"] >= 0) and run.frame("slip_surface").shape == (len(cells["step"]), 16)
+    assert np.all(end["pressure_Pa"] >= 0) and run.frame("slip_surface").shape == (len(cells["step"]), 17)
     assert len(run.figure("slip_surface").axes) == 4  # two panels with their scales
 
 
@@ -91,6 +95,45 @@ def test_the_series_tells_how_much_of_the_surface_is_weak(slid):
     assert series["cells_weakened_rel"][0] == 0 and series["cells_weakened_rel"][-1] > 0.1
     assert not series["weakened_disks"].any()
     assert told["times_missing"].get("t3") != "no slip surface weakened"
+
+
+def test_cells_have_their_middles_on_the_bent_wall(slid):
+    """Half way along each, where the chord's middle is off it."""
+    cells = runs.open_run(slid[0]).slip_surface_arrays["circle"]
+    start, end = geometry.pieces([section.of(heated()).of_role("slip")[0].points])
+    off = geometry.nearest(np.column_stack([cells["x_m"], cells["y_m"]]), start, end)[0]
+    assert len(off) > 3 and off.max() < 1e-9 * cells["length_m"].sum()
+
+
+def test_the_end_of_a_run_leaves_arrays_of_all_rows(slid):
+    """With what the law has not, melt and reactions, left out, and units and meanings as the columns have them."""
+    folder, run = slid[0], runs.open_run(slid[0])
+    rows, arrays = run.slip_surface, records.read_surface_arrays(folder / "slip_surface.h5")
+    assert list(arrays) == ["circle"] and sorted(arrays["circle"]) == sorted(run.slip_surface_arrays["circle"])
+    one, count = arrays["circle"], rows["cell"].max() + 1
+    assert set(SURFACE_COLUMNS) - set(one) == {"wall", "cell", "reacted", "melt_m"}
+    for name, values in one.items():
+        table = rows[name].reshape(-1, count)
+        expected = {"step": table[:, 0], "time_s": table[:, 0], "x_m": table[0], "y_m": table[0], "length_m": table[0]}
+        assert np.array_equal(values, expected.get(name, table)), name
+    with h5py.File(folder / "slip_surface.h5", "r") as file:
+        for name, dataset in file["circle"].items():
+            assert dict(dataset.attrs) == {"unit": SURFACE_COLUMNS[name].unit, "meaning": SURFACE_COLUMNS[name].meaning}
+
+
+def test_cells_say_where_the_water_of_the_zone_has_boiled(tmp_path):
+    """Of a thin zone whose water hardly expands: from where it is too hot for a liquid under 0.1 MPa and the pressure
+    of the zone, on.
+    """
+    zone = ZONE | {"thickness": 1e-3, "pressurization_coefficient": 3e3}
+    course = experiment.begin(section.of(heated(law="thermal_pressurization", parameters=zone)), tmp_path / "run")
+    course.run()
+    cells = runs.open_run(tmp_path / "run").slip_surface_arrays["circle"]
+    boiled = cells["vapour"]
+    line = np.vectorize(laws.vapour_pressure)(cells["temperature_degC"])
+    beyond = line > 1e5 + cells["pressure_Pa"]
+    assert set(np.unique(boiled)) == {0, 1} and np.all(boiled[beyond] == 1)
+    assert np.array_equal(boiled[-1] == 1, beyond.any(axis=0)) and np.all(np.diff(boiled, axis=0) >= 0)
 
 
 def test_ground_with_a_slip_law_is_no_slip_surface(tmp_path):
@@ -136,17 +179,22 @@ def test_a_run_goes_on_from_its_checkpoint_with_the_same_bytes(slid, tmp_path):
     course = experiment.begin(section.of(heated()), tmp_path / "run")
     course.run(end=moving)
     course.checkpoint()
-    experiment.resume(section.of(heated()), tmp_path / "run").run()
-    for name in ("slip_surface.csv", "series.csv"):
+    arrays = tmp_path / "run" / "slip_surface.h5"
+    assert arrays.exists()
+    resumed = experiment.resume(section.of(heated()), tmp_path / "run")
+    assert not arrays.exists()  # which ended before the run does
+    resumed.run()
+    for name in ("slip_surface.csv", "slip_surface.h5", "series.csv"):
         assert (tmp_path / "run" / name).read_bytes() == (folder / name).read_bytes(), name
 
 
 def test_other_walls_have_no_such_file(tmp_path):
     run = experiment.begin(section.of(heated(surface={"rolling_friction": 0.1})), tmp_path / "run")
     run.run(end=0.1)
-    assert not (tmp_path / "run" / "slip_surface.csv").exists()
-    with pytest.raises(runs.RunError, match="slip_surface.csv"):
-        _ = runs.open_run(tmp_path / "run").slip_surface
+    assert not list((tmp_path / "run").glob("slip_surface.*"))
+    for name in ("slip_surface", "slip_surface_arrays"):
+        with pytest.raises(runs.RunError, match="slip_surface.csv"):
+            getattr(runs.open_run(tmp_path / "run"), name)
 
 
 @pytest.mark.parametrize(
@@ -214,6 +262,10 @@ def test_several_walls_have_their_rows(tmp_path):
     run.run(end=0.2)
     cells = runs.open_run(tmp_path / "run").slip_surface
     assert list(dict.fromkeys(cells["wall"].tolist())) == ["valley", "circle", "plateau"]
+    arrays = tmp_path / "run" / "slip_surface.h5"
+    assert list(records.read_surface_arrays(arrays)) == ["circle", "plateau", "valley"]
+    run.attach()  # it goes on, and arrays of its first part would miss the rest
+    assert not arrays.exists()
 
 
 def test_a_mirrored_slope_has_mirrored_cells(tmp_path):
