@@ -27,7 +27,9 @@ def heated_slopes(cases, path=None, pdf=False):
     """
     if not any(heated_surface.heats(series) for _, series in cases):
         raise RecordsError("no series has the column cells_friction_rel; give at least one of a slope with a slip_law")
-    cases = [(label, (heated_surface.rows if heated_surface.heats(one) else since_settled)(one)) for label, one in cases]
+    cases = [
+        (label, (heated_surface.rows if heated_surface.heats(one) else since_settled)(one)) for label, one in cases
+    ]
     begins = [heated_surface.begin(series) for _, series in cases]
     if not any(time is not None for time in begins):
         raise RecordsError(f"no slope has moved at {heated_surface.BEGIN:g} m/s; give at least one that did")

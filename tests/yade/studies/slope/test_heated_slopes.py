@@ -324,8 +324,8 @@ def test_the_script_that_compares_slip_laws(tmp_path):
     # beside them, slopes whose surface is told to weaken
     assert {name: (told[name]["packings"], told[name]["failed"]) for name in ("1", "3")} == {"1": (2, 2), "3": (2, 2)}
     of_runs = [runs.open_run(tmp_path / "out" / "beside" / "runs" / f"critical_slip=3_seed={seed}") for seed in (1, 2)]
-    assert told["3"]["when_failed"]["triggering_s"]["mean"] == pytest.approx(
-        np.mean([run.summary["triggering_s"] for run in of_runs])
+    assert told["3"]["when_failed"]["front_travel_m"]["mean"] == pytest.approx(
+        np.mean([run.summary["front_travel_m"] for run in of_runs])
     )
     assert "slip_m_50" not in told["3"]["when_failed"] and "told_at_3_m: 2 of 2 failed by water" in done.stdout
     # a thick zone takes more slip, and D_c goes with its thickness
