@@ -34,9 +34,10 @@ LESSONS = {
     "bounce": ["numerics", "material", "functors, engines, time step"],
     "deposit": ["numerics", "material", "functors, engines, time step"],
     "oedometer": ["numerics", "material", "functors, engines, time step"],
+    "heated": ["numerics", "material", "functors, engines, time step"],
 }
 #: what may be set inside the marks
-NAMES = {"numerics", "rock", "joint", "O.engines", "O.dt", "newton.gravity"}
+NAMES = {"numerics", "rock", "joint", "grounds", "O.engines", "O.dt", "newton.gravity"}
 
 
 def source(name):
@@ -196,6 +197,7 @@ REFUSED = [
         "bounce": "height bounces dt",
         "deposit": "seconds radius rest dt",
         "oedometer": "seconds stress dt",
+        "heated": "seconds friction thickness depth dt",
     }.items()
     for name in names.split()
     for value in (0, -1)
@@ -205,6 +207,8 @@ REFUSED = [
     ("pile", "friction", -0.1),
     ("incline", "seconds", "'long'"),
     ("incline", "slope", 90),
+    ("heated", "slope", 90),
+    ("heated", "dt", "'short'"),
 ]
 
 
