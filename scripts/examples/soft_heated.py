@@ -147,7 +147,7 @@ def way(k):
     return [v[0] * along[0] + v[1] * along[1] for v in (state.pos - starts[k], state.vel)]
 
 
-print("10 % left        after [s]   slip [m]   D_c ln 10   warmer by [K]   0.9 sigma/Lambda   at the end: way [m]   speed [m/s]")
+print("a tenth is left  after [s]   slip [m]   closed form   warmer by [K]   closed form   way at the end [m]   speed [m/s]")
 for k, (name, rows) in enumerate(curves.items()):
     thick, deep, _ = LANES[name]
     found = left(rows, 0.1)
@@ -157,7 +157,7 @@ for k, (name, rows) in enumerate(curves.items()):
     time, slip, _, rise = found
     critical = HEAT * thick * table.thickness / (table.friction * PRESSURE)  # D_c [m]
     stress = 2400 * deep * table.depth * G * math.cos(ANGLE)                 # σ [Pa]
-    print("%-14s   %9.3f   %8.4f   %9.4f   %13.3f   %16.3f   %19.3f   %11.3f" % (name, time, slip, critical * math.log(10), rise, 0.9 * stress / PRESSURE, *way(k)))
+    print("%-14s   %9.3f   %8.4f   %11.4f   %13.3f   %11.3f   %18.3f   %11.3f" % (name, time, slip, critical * math.log(10), rise, 0.9 * stress / PRESSURE, *way(k)))
 print("constant friction   way [m] %.3f   speed [m/s] %.3f" % tuple(way(-1)))
 print(f"steps {O.iter}")
 utils.waitIfBatch()
