@@ -125,12 +125,17 @@ for ids, (_, _, speed) in zip(blocks, LANES.values()):
 starts, begun = [O.bodies[ids[0]].state.pos for ids in blocks], O.time
 
 curves = {name: [(0, 0, 1, 0)] for name, (thick, _, _) in LANES.items() if thick}  # time [s], slip [m], share of the strength that is left, warmer by [K]
-steps = max(1, round(0.01 / O.dt))
-for _ in range(max(1, round(table.seconds / (steps * O.dt)))):
-    O.run(steps, wait=True)
+
+
+def look():
+    """A row of each curve, at the end of a step."""
     for k, rows in enumerate(curves.values()):
         slip, friction, temperature = seen(k)
-        rows.append((O.time - begun, slip, friction / table.friction, temperature - COLD))
+        rows.append((O.time + O.dt - begun, slip, friction / table.friction, temperature - COLD))
+
+
+O.engines += [PyRunner(command="look()", iterPeriod=max(1, round(0.01 / O.dt)))]
+O.run(max(1, round(table.seconds / O.dt)), wait=True)
 
 
 def left(rows, share):
