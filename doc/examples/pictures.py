@@ -95,20 +95,47 @@ def _the_tester(folder):
     style.save(figure, f"{folder}/lesson_tester.png", dpi=110)
 
 
+@style.styled
+def _the_heated(folder):
+    """What is left of the strength by slip and by time, of springs and of rigid disks, beside the closed form."""
+    figure = style.figure(11.0, 4.2)
+    by_slip, by_time = figure.subplots(1, 2, sharey=True)
+    lanes = ("heated", "pushed", "twice as thick")  # half as deep is the same line as heated
+    for world, title in reversed(_WORLDS):
+        _end_of(f"{_ROOT}/scripts/examples/{world}_heated.py")
+        for name, colour in zip(lanes, style.line_colours(len(lanes))):
+            time, slip, share, _ = np.array(globals()["curves"][name]).T
+            look = dict(color=colour, ls="-" if world == "hard" else (0, (2, 1.2)), lw=1.6 if world == "hard" else 2.4)
+            by_slip.plot(slip, share, **look)
+            by_time.plot(time, share, **look, label=f"{name}, {title}")
+    for thick in (1, 2):
+        slip = np.linspace(0, 6, 200)
+        by_slip.plot(slip, np.exp(-slip * table.friction * PRESSURE / (HEAT * thick * table.thickness)), color="k", lw=0.8, ls=":", label=r"$e^{-\delta/D_c}$" if thick == 1 else None)
+    by_slip.set(xlabel="slip [m]", ylabel="strength that is left", xlim=(0, 6), ylim=(0, 1.05))
+    by_time.set(xlabel="time [s]", xlim=(0, 3))
+    by_slip.axhline(0.1, color="#999999", lw=0.8, zorder=0.5)
+    by_slip.legend()
+    lines = dict(zip(*reversed(by_time.get_legend_handles_labels())))
+    names = [f"{name}, {title}" for name in lanes for _, title in _WORLDS]  # a column a lane
+    figure.legend([lines[name] for name in names], names, loc="lower center", ncol=3)
+    figure.subplots_adjust(left=0.06, right=0.99, top=0.97, bottom=0.26, wspace=0.06)
+    style.save(figure, f"{folder}/lesson_heated.png", dpi=110)
+
+
 _parser = argparse.ArgumentParser(description=__doc__)
 _parser.add_argument("folder")
 _parser.add_argument("pictures", nargs="*", metavar="LESSON")
 _parser.add_argument("--threads", help="read by the launcher")
 _given = _parser.parse_args()
-for _name in _given.pictures or ("law", "recipes", "beam", "column", "drum", "incline", "pile", "press", "shear", "slope", "tester", "wedge"):
+for _name in _given.pictures or ("law", "recipes", "beam", "column", "drum", "heated", "incline", "pile", "press", "shear", "slope", "tester", "wedge"):
     if _name == "law":
         _the_law(_given.folder)
         continue
     if _name == "recipes":
         _the_recipes(_given.folder)
         continue
-    if _name == "tester":
-        _the_tester(_given.folder)
+    if _name in ("heated", "tester"):
+        {"heated": _the_heated, "tester": _the_tester}[_name](_given.folder)
         continue
     _the_lesson(_name, _given.folder)
 if not _given.pictures:

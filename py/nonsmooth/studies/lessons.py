@@ -67,6 +67,7 @@ CASES = {
     "bounce": _pair("bounce"),
     "deposit": _pair("deposit"),
     "oedometer": _pair("oedometer"),
+    "heated": _pair("heated"),
 }
 
 

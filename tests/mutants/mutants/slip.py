@@ -11,6 +11,7 @@ PLACES, ARRAYS = "py/nonsmooth/slip/cell_places.py", "py/nonsmooth/records/surfa
 EXPERIMENT = "py/nonsmooth/studies/slope/experiment.py"
 BUILDING, CHECKS = "py/nonsmooth/model/section/building.py", "py/nonsmooth/model/section/checks.py"
 BLOCK, SETS, FIGURE = ("py/nonsmooth/slip/block.py", "py/nonsmooth/slip/parameter_sets.py", "py/nonsmooth/figures/sliding_block.py")
+SPRINGS = "scripts/examples/soft_heated.py"
 
 MUTANTS = (
     # ---- functions of slip
@@ -123,6 +124,15 @@ MUTANTS = (
     mutant("level-seat", "py/nonsmooth/model/roles.py", "(way[1] == 0 and side * way[0] < 0)", "(way[1] == 0 and way[0] < 0)", "a level slip surface goes to the right on a slope to the left",
            "test_roles.py"),
     mutant("slip-law-turns", "py/nonsmooth/judges/benchmark/slip_laws.py", "[:: 1 if turn % 2 == 0 else -1]", "", "one kind of walls is always timed first", "test_benchmark_numbers.py"),
+    # ---- the lesson
+    mutant("lesson-heated-mean", SPRINGS, "(cells.path[c] / span if cells.slip[c] else 1)", "1", "the law of springs has the stress of a step, which swings",
+           "test_examples.py::test_surfaces_that_heat_are_weak_after_the_slip_of_the_closed_form"),
+    mutant("lesson-heated-heat", SPRINGS, "contact.shearForce.norm() * speed", "contact.normalForce.norm() * speed", "the weight heats, and not friction",
+           "test_examples.py::test_surfaces_that_heat_are_weak_after_the_slip_of_the_closed_form"),
+    mutant("lesson-heated-friction", SPRINGS, "contact.tangensOfFrictionAngle = friction[c]", "contact.tangensOfFrictionAngle = friction[0]", "all contacts have the friction of the upper end",
+           "test_examples.py::test_surfaces_that_heat_are_weak_after_the_slip_of_the_closed_form"),
+    mutant("lesson-heated-cell", "scripts/examples/hard_heated.py", "float(cells[name][1])", "float(cells[name][3])", "a cell is shown onto which the block comes late",
+           "test_examples.py::test_surfaces_that_heat_are_weak_after_the_slip_of_the_closed_form"),
     # ---- the block
     mutant("block-heat", BLOCK, "strength * path, after", "push * path, after", "heat is what the weight does", "test_slip_block.py", "verify:adiabatic-block"),
     mutant("block-up", BLOCK, "max(0.0, speed + gains * (push - strength))", "speed + gains * (push - strength)", "friction drives a block up the slope", "test_slip_block.py"),

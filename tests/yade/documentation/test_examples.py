@@ -34,9 +34,10 @@ LESSONS = {
     "bounce": ["numerics", "material", "functors, engines, time step"],
     "deposit": ["numerics", "material", "functors, engines, time step"],
     "oedometer": ["numerics", "material", "functors, engines, time step"],
+    "heated": ["numerics", "material", "functors, engines, time step"],
 }
 #: what may be set inside the marks
-NAMES = {"numerics", "rock", "joint", "O.engines", "O.dt", "newton.gravity"}
+NAMES = {"numerics", "rock", "joint", "grounds", "O.engines", "O.dt", "newton.gravity"}
 
 
 def source(name):
@@ -196,6 +197,7 @@ REFUSED = [
         "bounce": "height bounces dt",
         "deposit": "seconds radius rest dt",
         "oedometer": "seconds stress dt",
+        "heated": "seconds friction thickness depth dt",
     }.items()
     for name in names.split()
     for value in (0, -1)
@@ -205,6 +207,8 @@ REFUSED = [
     ("pile", "friction", -0.1),
     ("incline", "seconds", "'long'"),
     ("incline", "slope", 90),
+    ("heated", "slope", 90),
+    ("heated", "dt", "'short'"),
 ]
 
 
@@ -508,6 +512,48 @@ def test_an_oedometer_springs_back_and_rigid_grains_do_not(output):
     # k = E R for each of some 13 layers of 14 disks: 8e4 Pa m / 14 / (1e9 Pa · 0.035 m) of each, 2 mm, and half as much
     # again since the layers lie askew
     assert 0.002 < pressed < 0.010 and released < 0.5 * pressed
+
+
+def test_surfaces_that_heat_are_weak_after_the_slip_of_the_closed_form(output):
+    """D_c ln 10 with D_c = ρc h/(f Λ), and 0.9 σ/Λ: whatever the depth and the speed, and in both worlds."""
+    critical = 2.85e6 * 7.5e-3 / (0.4 * 6.7e4)
+    closed = (
+        math.log(10) * critical * np.array([1, 1, 2, 1])
+    )  # as the rows come: heated, half as deep, twice as thick, pushed
+    rise = 0.9 * 2400 * 100 * 9.81 * math.cos(math.radians(25)) / 6.7e4 * np.array([1, 0.5, 1, 1])
+    steep, rubs = (9.81 * f(math.radians(25)) for f in (math.sin, lambda angle: 0.4 * math.cos(angle)))
+    begun = np.array([0, 0, 0, 1])
+    # energy of a block when 10 % are left; ground ahead of it, as yet cold, slows it by a tenth
+    speed = np.sqrt(begun**2 + 2 * (steep * closed - rubs * 0.9 * closed / math.log(10)))
+    for world in ("hard", "soft"):
+        text = output(f"{world}_heated.py")
+        as_kept("heated", world, text)
+        table = np.array(lessons.numbers(text)["rows"])
+        times, slips, told, warmer, as_told = table[:, :5].T
+        # the digits printed
+        assert told == pytest.approx(closed, abs=1e-4) and as_told == pytest.approx(rise, abs=1e-3)
+        if world == "hard":
+            # cells show the friction of the step to come, in whose middle half of its slip is made
+            assert closed - slips == pytest.approx(0.5 * 5e-3 * speed, rel=0.2)
+            # a t (t + h)/2 of the block whose friction stays, three digits printed
+            way = number(text, "constant friction   way [m]")
+            assert way == pytest.approx(0.5 * (steep - rubs) * 3 * 3.005, abs=1e-3)
+            assert times[0] == times[1]
+        else:  # 0.1 % for a step, and the rest for forces that swing
+            assert slips == pytest.approx(closed, rel=5e-3)
+        assert warmer == pytest.approx(rise, rel=2e-3)  # a step's slip is 0.01 D_c, of a tenth
+        # the thinner zone is weak first, and of two the one that was pushed
+        assert times[3] < times[0] < times[2]
+
+
+def test_a_heated_block_that_friction_holds_needs_a_push(output):
+    """On 20° friction of 0.4 holds: nothing slides, nothing heats."""
+    text = output("hard_heated.py", slope=20, seconds=1.5)
+    assert re.findall(r"^(.*?) *: (\S+) % are left after (\S+) m$", text, re.M) == [
+        (name, "100.0", "0.000") for name in ("heated", "half as deep", "twice as thick")
+    ]
+    (pushed,) = lessons.numbers(text)["rows"]
+    assert pushed[1] == pytest.approx(math.log(10) * 2.85e6 * 7.5e-3 / (0.4 * 6.7e4), rel=5e-3)
 
 
 def test_the_wedge_runs_what_is_not_there_and_draws_all(in_process, tmp_path):

@@ -28,7 +28,9 @@ def said(path):
     return texts, [sum("image/png" in out.get("data", {}) for out in cell["outputs"]) for cell in cells(path)]
 
 
-@pytest.mark.parametrize("name, pictures", [("slope", 3), ("columns", 4), ("laboratory", 2), ("exercises", 3)])
+@pytest.mark.parametrize(
+    "name, pictures", [("slope", 3), ("columns", 4), ("laboratory", 2), ("slip_surfaces", 5), ("exercises", 3)]
+)
 def test_a_notebook_says_what_stands_in_the_documentation(tmp_path, name, pictures):
     """Word for word: the runs have the same bits wherever the same engines run."""
     mine = shutil.copy(NOTEBOOKS / f"{name}.ipynb", tmp_path)
