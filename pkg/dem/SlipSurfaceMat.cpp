@@ -225,6 +225,7 @@ void SlipSurfaceMat::note(int cell, Real pressed, Real speed, Real meanSpeed, Re
 void SlipSurfaceMat::close(Real h)
 {
 	for (size_t c = 0; c < cells.count(); ++c) {
+		if (held) weightOf[c] = lostOf[c] = 0; // as if nothing slid; what presses counts
 		const Real length = geometry.lengthOf(c), weight = weightOf[c];
 		cells.slipRate[c] = weight > 0 ? speedOf[c] / weight : 0;
 		cells.path[c]     = weight > 0 ? h * meanSpeedOf[c] / weight : 0;

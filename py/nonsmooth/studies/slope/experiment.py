@@ -267,6 +267,7 @@ class Experiment(driver.Course):
         """The first steps, without gravity; bonds the packing as it is, unless that comes after gravity has grown."""
         s, solver = self.state, self.slope.solver
         self.newton.gravity = self._gravity(0.0)
+        self.walls.hold()
         advance(view=False)  # finds the contacts
         s.first_step = O.iter
         if self.section.stages.settle.bond == "before":

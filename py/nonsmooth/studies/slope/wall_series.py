@@ -64,11 +64,23 @@ class WallSeries:
         """Begins anew."""
         self._forces.forget()
 
+    def hold(self):
+        """Lets walls with slip laws keep the friction before slip until :meth:`forget_slip`: settling is how a slope is
+        loaded, and nothing that its slip surface has been through.
+        """
+        self._set_held(True)
+
     def forget_slip(self):
-        """Sets the slip along all walls and interfaces to zero."""
+        """Sets the slip along all walls and interfaces to zero; from now on slip laws act."""
         for material in self._laws().values():
             if hasattr(material, "forgetSlip"):
                 material.forgetSlip()
+        self._set_held(False)
+
+    def _set_held(self, held):
+        for material in self._laws().values():
+            if hasattr(material, "held"):
+                material.held = held
 
     def take(self):
         """Writes the rows of the time since the last call. Returns {role: (normal force, shear force where walls hold
