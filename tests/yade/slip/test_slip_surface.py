@@ -6,7 +6,7 @@ import pytest
 from yade import O
 from yade.minieigenHP import Vector3
 from yade.nonsmooth import scene
-from yade.nonsmooth.slip import surface
+from yade.nonsmooth.slip import parameter_sets, surface
 from yade.nonsmooth.slip.laws import SlipError, SlipLaw
 from yade.wrapper import NewtonIntegrator, NscdMat, SlipSurfaceMat
 
@@ -294,6 +294,24 @@ def test_what_is_forgotten_has_not_slipped():
     found = surface.cells(m)
     assert not found["slip_m"].any() and not (found["temperature"] - 15).any() and m.heat == 0
     assert found["friction"] == pytest.approx(0.4)
+
+
+@pytest.mark.parametrize("name", ["vaiont", "fault_gouge", "silica_gel"])
+def test_what_is_held_keeps_its_friction_and_knows_what_presses(name):
+    """Also of laws that go by the speed. From when it is let go it slips, weakens and heats."""
+    m = wall(law=parameter_sets.law(name, friction=0.4) if name != "silica_gel" else parameter_sets.law(name), held=True)
+    before = float(np.tan(m.frictionAngle))
+    ids, way = block(m, length=60.0, speed=2.0)
+    run(40)
+    found = surface.cells(m)
+    below = found["normal_stress_Pa"] > 1e5
+    assert below.any() and found["friction"] == pytest.approx(before, rel=1e-12)  # rounding
+    assert not found["slip_m"].any() and not found["slip_rate_m_per_s"].any() and m.heat == 0
+    assert "temperature" not in found or np.ptp(found["temperature"]) < 1e-9  # rounding
+    m.held = False
+    run(40)
+    after = surface.cells(m)
+    assert after["slip_m"][below].max() > 0.1 and after["friction"][below].min() < before - 1e-3 and m.heat > 0
 
 
 def test_a_wall_below_its_friction_stays_cold():

@@ -78,6 +78,18 @@ def test_the_slope_fails_and_its_surface_is_heated_by_what_sliding_loses(slid):
     assert len(run.figure("slip_surface").axes) == 4  # two panels with their scales
 
 
+def test_a_slip_law_acts_when_the_slope_has_settled(slid):
+    """Settling is how it is loaded: disks slide on the wall then, and it keeps the friction before slip."""
+    folder, _, _ = slid
+    run = runs.open_run(folder)
+    settling = run.slip_surface["time_s"] <= run.series["time_s"][run.series["stage"] == 0].max()
+    assert np.count_nonzero(settling) > 100
+    assert not run.slip_surface["slip_m"][settling].any()
+    assert run.slip_surface["friction"][settling] == pytest.approx(0.6, rel=1e-12)  # rounding
+    assert run.slip_surface["hottest_degC"][settling] == pytest.approx(15, rel=1e-12)
+    assert run.slip_surface["slip_m"][~settling].any()
+
+
 def test_the_series_tells_how_much_of_the_surface_is_weak(slid):
     """As its cells have it, by their length; so weakening is known to have begun."""
     folder, _, told = slid
