@@ -21,8 +21,8 @@ from yade.params import table
 
 OF_RUN = ("water_at_failure_m", "triggering_s", "weakening_s", "motion_s", "front_travel_m", "speed_mean_max_m_per_s")
 TOLD = (
-    ("after_s_5", "{} s after it moved at 0.1 m/s", 1), ("slip_m_5", "{} m of slip", 1), ("speed_m_per_s_5", "{} m/s", 1), ("temperature_degC_5", "{} °C in the mean", 0),
-    ("hottest_degC_5", "{} °C at most", 0),
+    ("after_s", "{} s after it moved at 0.1 m/s", 1), ("slip_m", "{} m of slip", 1), ("speed_m_per_s", "{} m/s", 1), ("temperature_degC", "{} °C in the mean", 0),
+    ("hottest_degC", "{} °C at most", 0),
 )  # fmt: skip
 folder, seeds = Path(table.folder), list(range(1, table.seeds + 1))
 told, drawn, heated = {}, [], []
@@ -57,8 +57,10 @@ def compare(slope, key, values, labels, out, heats):
     for row in campaign.means(found, [key, "seed"]):
         value = str(row["values"][key])
         print(f"{label_of[value]}: {len(row['seeds'])} of {row['of']} {row['verdict']}, the water at {said(row, 'water_at_failure_m', 0)} m")
-        if heats and row["numbers"]["after_s_5"]["mean"] is not None:
-            print("  95 % of the strength had gone: " + ", ".join(words.format(said(row, name, digits)) for name, words, digits in TOLD))
+        for left in (50, 10, 5) if heats else ():
+            if row["numbers"][f"after_s_{left}"]["mean"] is not None:
+                numbers = (words.format(said(row, f"{name}_{left}", digits)) for name, words, digits in TOLD)
+                print(f"  {left} % of the strength were left after {', '.join(numbers)}")
         print(f"  mean speed up to {said(row, 'speed_mean_max_m_per_s', 1)} m/s, front {said(row, 'front_travel_m', 0)} m")
         one = told.setdefault(value.replace(".", "_"), {"packings": row["of"], "failed": 0, "stood": 0})
         kind = "failed" if row["verdict"].startswith("failed by") else row["verdict"].replace(" ", "_")

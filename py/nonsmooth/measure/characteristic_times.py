@@ -18,7 +18,7 @@ Rules (Taboada and Estrada 2009, section 6; what they leave open is ours):
   :func:`missing` says why.
 
 Weakening begins where D_c is reached by one per cent of the disks that fit along the slip surfaces, or half of the
-friction is lost along a tenth of the length of those with slip laws, so that one cell of many, at an end which few
+friction is lost where a tenth of the load is borne on those with slip laws, so that one cell of many, at an end which few
 disks press on, does not begin it. Where some lie one above another (stacks.py), D_c is reached so along one of them, and
 T is then the shear force on that one. A slope that failed dry has t4
 and t5 of all of its rows. One second, 0.02 and 0.2 m/s, are those of the shipped section, and scaled for another
@@ -76,7 +76,7 @@ NEEDED = {
 FASTER, RESTING = (50, 100, 200, 300, 400, 500), (2, 5, 10)
 LEVEL = 0.98  # of the strength of the foot
 WEAKENED = 0.01  # of the disks along the slip surfaces
-WEAKENED_LENGTH = 0.1  # of their cells, by length
+WEAKENED_LOAD = 0.1  # of their cells, by the load that they bear
 CELLS = "cells_weakened_rel"  # that share, where slip surfaces have slip laws
 FALLEN = 0.1  # of the shear force that is left at t3
 SAME = 1e-9  # s, of one row's time
@@ -213,7 +213,7 @@ def _weakening(series, section, state):
         late = np.flatnonzero((series[column] >= enough) & (series["time_s"] >= state["t0"]))
         found += [(float(series["time_s"][late[0]]), surface)] if len(late) else []
     if CELLS in series:
-        late = np.flatnonzero((series[CELLS] >= WEAKENED_LENGTH) & (series["time_s"] >= state["t0"]))
+        late = np.flatnonzero((series[CELLS] >= WEAKENED_LOAD) & (series["time_s"] >= state["t0"]))
         found += [(float(series["time_s"][late[0]]), None)] if len(late) else []
     return min(found, key=lambda one: one[0], default=(None, None))
 

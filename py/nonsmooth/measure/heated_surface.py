@@ -1,7 +1,7 @@
 """How a slip surface loses its strength as it heats, from a slope's series and the cells along its walls. Needs no YADE.
 
-Slip, and what is left of friction, are means over the cells of slip surfaces by their length (columns ``cells_slip_m``
-and ``cells_friction_rel`` of the series), since the slope settled. Time counts from where the disks' mean speed passes
+Slip, and what is left of friction, are means over the cells of slip surfaces by the load that they bear (columns
+``cells_slip_m`` and ``cells_friction_rel`` of the series), since the slope settled. Time counts from where the disks' mean speed passes
 :data:`BEGIN`, as creep before it has no beginning.
 """
 
@@ -94,7 +94,7 @@ def _check(walls, cells):
 
 
 def temperatures(cells, walls, time) -> tuple[float, float]:
-    """Mean temperature of the zone by length, and the highest across it [°C], in the row of ``cells`` (columns of
+    """Mean temperature of the zone by the load, and the highest across it [°C], in the row of ``cells`` (columns of
     ``slip_surface.csv``) that is nearest to a ``time`` [s], of these ``walls``; NaN for laws without a zone that heats.
     Raises RecordsError for a wall that is not in the cells.
     """
@@ -104,7 +104,9 @@ def temperatures(cells, walls, time) -> tuple[float, float]:
     heat = cells["temperature_degC"][now]
     if not len(heat) or np.isnan(heat).all():
         return math.nan, math.nan
-    return float(np.average(heat, weights=cells["length_m"][now])), float(np.nanmax(cells["hottest_degC"][now]))
+    load = cells["length_m"][now] * cells["normal_stress_Pa"][now]
+    mean = np.average(heat, weights=load if load.any() else None)
+    return float(mean), float(np.nanmax(cells["hottest_degC"][now]))
 
 
 def numbers(series, cells, walls) -> dict[str, float | None]:

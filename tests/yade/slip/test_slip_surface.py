@@ -299,7 +299,9 @@ def test_what_is_forgotten_has_not_slipped():
 @pytest.mark.parametrize("name", ["vaiont", "fault_gouge", "silica_gel"])
 def test_what_is_held_keeps_its_friction_and_knows_what_presses(name):
     """Also of laws that go by the speed. From when it is let go it slips, weakens and heats."""
-    m = wall(law=parameter_sets.law(name, friction=0.4) if name != "silica_gel" else parameter_sets.law(name), held=True)
+    m = wall(
+        law=parameter_sets.law(name, friction=0.4) if name != "silica_gel" else parameter_sets.law(name), held=True
+    )
     before = float(np.tan(m.frictionAngle))
     ids, way = block(m, length=60.0, speed=2.0)
     run(40)

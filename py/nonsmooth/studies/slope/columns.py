@@ -129,11 +129,18 @@ ERODING = declared(
     Column("eroded_shift_y_m", "m", "the same, y"),
 )
 
-#: Of ``series.csv`` besides, where slip surfaces have slip laws, means over their cells by length: {name: Column}.
+#: Of ``series.csv`` besides, where slip surfaces have slip laws, means over their cells by the load that these bear:
+#: {name: Column}.
 OF_SURFACES = declared(
     Column("cells_slip_m", "m", "mean slip of the cells along slip surfaces with slip laws, since the slope settled"),
-    Column("cells_friction_rel", "1", "mean friction of these cells, in parts of that before slip"),
-    Column("cells_weakened_rel", "1", "share of their length where friction is below half of that before slip"),
+    Column(
+        "cells_friction_rel",
+        "1",
+        "mean friction of these cells, in parts of that before slip: what is left of the strength",
+    ),
+    Column(
+        "cells_weakened_rel", "1", "share of their load that is borne where friction is below half of that before slip"
+    ),
 )
 
 #: All that the series of some sections have besides: {name: Column}.

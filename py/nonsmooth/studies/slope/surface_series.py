@@ -46,17 +46,21 @@ class SurfaceSeries:
 
 
 def means(cells):
-    """Columns :data:`.columns.OF_SURFACES` of walls, each as (its cells, friction before slip): {name: value}. What has
-    no cells yet has not slipped.
+    """Columns :data:`.columns.OF_SURFACES` of walls, each as (its cells, friction before slip): {name: value}. Cells count
+    by the load that they bear, so that the mean friction is the strength of all by what it would be before slip; by
+    their length where none bears any. What has no cells yet has not slipped.
     """
-    length, slip, left = (
+    length, stress, slip, left = (
         np.concatenate(parts)
-        for parts in zip(*((c["length_m"], c["slip_m"], c["friction"] / friction) for c, friction in cells))
+        for parts in zip(
+            *((c["length_m"], c["normal_stress_Pa"], c["slip_m"], c["friction"] / friction) for c, friction in cells)
+        )
     )
     if not len(length):
         return dict(zip(OF_SURFACES, (0.0, 1.0, 0.0), strict=True))
+    load = length * stress if stress.any() else length
     found = (slip, left, left < WEAKENED)
-    return {name: float(np.average(one, weights=length)) for name, one in zip(OF_SURFACES, found, strict=True)}
+    return {name: float(np.average(one, weights=load)) for name, one in zip(OF_SURFACES, found, strict=True)}
 
 
 def _rows(name, found, law, points):

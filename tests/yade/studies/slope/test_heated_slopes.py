@@ -91,18 +91,18 @@ def test_a_slip_law_acts_when_the_slope_has_settled(slid):
 
 
 def test_the_series_tells_how_much_of_the_surface_is_weak(slid):
-    """As its cells have it, by their length; so weakening is known to have begun."""
+    """As its cells have it, by the load that they bear; so weakening is known to have begun."""
     folder, _, told = slid
     run = runs.open_run(folder)
     cells, series = run.slip_surface, run.series
     rows = len(series["time_s"])
-    length, slip, left = (
-        cells[name].reshape(rows, -1) for name in ("length_m", "slip_m", "friction")
+    length, stress, slip, left = (
+        cells[name].reshape(rows, -1) for name in ("length_m", "normal_stress_Pa", "slip_m", "friction")
     )  # every row has all cells
-    left = left / 0.6
+    load, left = length * stress, left / 0.6
     for name, values in (("cells_slip_m", slip), ("cells_friction_rel", left), ("cells_weakened_rel", left < 0.5)):
-        expected = (values * length).sum(axis=1) / length.sum(axis=1)
-        assert series[name] == pytest.approx(expected, rel=1e-6, abs=1e-12), name  # numbers as they are written
+        expected = (values * load).sum(axis=1)[1:] / load.sum(axis=1)[1:]  # nothing presses in the first
+        assert series[name][1:] == pytest.approx(expected, rel=1e-6, abs=1e-12), name  # numbers as they are written
         assert run.columns[name].unit == ("m" if name.endswith("_m") else "1")
     assert series["cells_weakened_rel"][0] == 0 and series["cells_weakened_rel"][-1] > 0.1
     assert not series["weakened_disks"].any()
@@ -157,15 +157,18 @@ def test_ground_with_a_slip_law_is_no_slip_surface(tmp_path):
     assert len(found.slip_surface["cell"]) and "cells_slip_m" not in found.series
 
 
-def test_means_are_by_length():
-    """Two walls, of one cell of 1 m and of cells of 2 and 5 m."""
-    one = {"length_m": np.array([1.0]), "slip_m": np.array([8.0]), "friction": np.array([0.15])}
-    other = {"length_m": np.array([2.0, 5.0]), "slip_m": np.array([4.0, 0.0]), "friction": np.array([0.3, 0.4])}
+def test_means_are_by_the_load_that_cells_bear():
+    """Two walls, of one cell of 1 m and of cells of 2 and 5 m, which bear 4, 4 and 5 N; by length where they bear none."""
+    one = {"length_m": [1.0], "normal_stress_Pa": [4.0], "slip_m": [8.0], "friction": [0.15]}
+    other = {"length_m": [2.0, 5.0], "normal_stress_Pa": [2.0, 1.0], "slip_m": [4.0, 0.0], "friction": [0.3, 0.4]}
+    one, other = ({name: np.array(values) for name, values in wall.items()} for wall in (one, other))
     assert means([(one, 0.6), (other, 0.4)]) == {
-        "cells_slip_m": pytest.approx(2.0),
-        "cells_friction_rel": pytest.approx((0.25 + 2 * 0.75 + 5) / 8),
-        "cells_weakened_rel": pytest.approx(1 / 8),
+        "cells_slip_m": pytest.approx(48 / 13),
+        "cells_friction_rel": pytest.approx((4 * 0.25 + 4 * 0.75 + 5) / 13),
+        "cells_weakened_rel": pytest.approx(4 / 13),
     }
+    free = [wall | {"normal_stress_Pa": 0 * wall["length_m"]} for wall in (one, other)]
+    assert means([(free[0], 0.6), (free[1], 0.4)])["cells_slip_m"] == pytest.approx(2.0)
     none = {name: np.array([]) for name in one}
     assert list(means([(none, 0.6)]).values()) == [0.0, 1.0, 0.0]
 
