@@ -67,7 +67,7 @@ Cells are cut in the first step of :yref:`ContactDynamicsEngine`; the heat that 
 		((vector<vector<Real>>,lawValues,,(Attr::readonly|Attr::hidden),"Their values."))
 		((Real,cellLength,0,Attr::triggerPostLoad,"Length [m] of a cell along the wall; 0: eight mean diameters of the scene's disks."))
 		((Real,averagingSlip,0,Attr::triggerPostLoad,"Slip A [m] over which a cell's normal stress is a mean; 0: half the length of a cell."))
-		((bool,held,false,,"Whether the friction before slip holds, whatever slides, as while a scene is loaded: cells get neither slip nor heat."))
+		((bool,held,false,,"Whether cells get neither slip nor heat, whatever slides, as while a scene is loaded: a surface that has not slipped keeps the friction before slip."))
 		((vector<Real>,slip,,(Attr::readonly|Attr::hidden),"Slip of each cell [m]; this and the next three are filled as the material is saved."))
 		((vector<Real>,slipRate,,(Attr::readonly|Attr::hidden),"Its slip rate V [m/s] in the last step."))
 		((vector<Real>,normalStress,,(Attr::readonly|Attr::hidden),"Its normal stress σ [Pa]."))

@@ -28,6 +28,8 @@ from yade.params import table
 
 parameters.positive(table, "friction", "thickness", "depth", "seconds", "dt")
 parameters.within(table, 1, 89, "slope")
+parameters.within(table, 1e-4, 1, "thickness")  # m: a step slides less than the slip that weakens it
+parameters.within(table, 1, 1000, "depth")  # m: deeper the water boils before it bears the rock
 
 RADIUS, COUNT, G = 0.5, 24, 9.81
 CELL = 8.0  # m of a surface that share a temperature; those of the block's middle lie below it until it has slid so far

@@ -28,6 +28,8 @@ from yade.params import table
 
 parameters.positive(table, "friction", "thickness", "depth", "seconds", "dt")
 parameters.within(table, 1, 89, "slope")
+parameters.within(table, 1e-4, 1, "thickness")  # m: a step slides less than the slip that weakens it
+parameters.within(table, 1, 1000, "depth")  # m: deeper the water boils before it bears the rock
 
 RADIUS, COUNT, G = 0.5, 24, 9.81
 CELL = 8.0  # m of a surface that share a temperature; those of the block's middle lie below it until it has slid so far
@@ -41,6 +43,8 @@ CELLS = math.ceil((2 * RADIUS * COUNT + table.seconds + G * table.seconds**2 / 2
 origins, blocks, walls = [], [], []  # of each lane: its upper end, ids of disks, id of the wall
 
 # [ material
+parameters.positive(table, "young")
+parameters.within(table, 0, 1, "damping")
 grounds = []  # of each wall: its law, the law's cells, their friction
 
 
@@ -66,6 +70,8 @@ def couple():
                 continue
             contact, state = O.interactions[wall, i].phys, O.bodies[i].state
             c = int(((state.pos[0] - origin[0]) * along[0] + (state.pos[1] - origin[1]) * along[1]) / CELL)
+            if not 0 <= c < len(pressed):
+                raise parameters.ParameterError(f"dt {table.dt}: a block has left its plane; take less, or more damping")
             normal, speed = contact.normalForce.norm(), max(0, state.vel[0] * along[0] + state.vel[1] * along[1])
             pressed[c] += normal
             slid[c] += normal * speed

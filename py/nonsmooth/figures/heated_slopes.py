@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import numpy as np
+
 from ..measure import heated_surface
 from ..records import RecordsError, since_settled
 from . import given, style
@@ -19,7 +21,8 @@ LEAST = 0.01  # m, of the slip that is shown
 @style.styled
 def heated_slopes(cases, path=None, pdf=False):
     """Friction that is left of that before slip against mean slip, on a scale of decades, and mean speed against time
-    since that passed :data:`nonsmooth.measure.heated_surface.BEGIN`.
+    since that passed :data:`nonsmooth.measure.heated_surface.BEGIN`. Friction is shown until the slip is largest: what
+    slides on comes to cells that have slipped less.
 
     ``cases``: (label, series of a slope); those of one label have one colour and one entry in the legend. A slope whose
     slip surface has no slip law is beside the others: dashed, and with its speed alone. Raises RecordsError where none
@@ -45,7 +48,9 @@ def heated_slopes(cases, path=None, pdf=False):
         told.add(label)
         look = dict(color=colours[label], lw=1.1, ls="-" if heats else "--", label=words)
         if heats:
-            chosen = series["cells_slip_m"] > 0
+            # until the mass leaves the cells that have slipped most
+            farthest = int(np.argmax(series["cells_slip_m"]))
+            chosen = np.flatnonzero(series["cells_slip_m"][: farthest + 1] > 0)
             left.plot(series["cells_slip_m"][chosen], series["cells_friction_rel"][chosen], **look)
         late = series["time_s"] >= time
         right.plot(series["time_s"][late] - time, series["speed_mean_m_per_s"][late], **look)

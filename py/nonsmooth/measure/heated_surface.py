@@ -84,7 +84,9 @@ def lost(series, share) -> dict | None:
 
 
 def _check(walls, cells):
-    """Raises RecordsError where one of the ``walls`` is not in the cells."""
+    """Raises RecordsError for what are no cells, and where one of the ``walls`` is not in them."""
+    if "wall" not in cells:
+        raise RecordsError("cells: they have no column wall; give those of slip_surface.csv, as run.slip_surface")
     there = list(dict.fromkeys(np.asarray(cells["wall"]).tolist()))
     wrong = [walls] if isinstance(walls, str) else [name for name in walls if name not in there]
     if wrong:

@@ -117,6 +117,10 @@ def test_the_release_from_water_follows_a_swept_critical_slip():
         ({"seed": []}, "seed: no value to run with"),
         ({"seed": [1, 2, 1]}, "seed: 1, 2, 1: a value stands twice"),
         (
+            {"water.table.rate": [1, 2], "water.table": [{"rate": 3}]},
+            "water.table and water.table.rate: the values of the one hold those of the other",
+        ),
+        (
             {"seed": range(101), "gravity": [1.0 + k for k in range(100)]},
             "101 × 100 = 10100 runs; a plan has 10000 at most",
         ),

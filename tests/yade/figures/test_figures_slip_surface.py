@@ -140,6 +140,14 @@ def test_a_slope_without_a_slip_law_is_beside_them_dashed_and_by_its_speed_alone
         figures.heated_slopes([("is told", told)])
 
 
+def test_friction_is_shown_until_the_slip_is_largest():
+    """What slides on comes to cells that have slipped less, so that the mean falls."""
+    back = run_of(5.0)
+    back["cells_slip_m"] = np.where(back["time_s"] > 25, 50.0, back["cells_slip_m"])
+    left, right = figures.heated_slopes([("a", back)]).axes
+    assert drawn.points(left.lines[0])[-1][0] == 15.0**2 and len(drawn.points(right.lines[0])) == 20
+
+
 def test_slopes_that_stand_are_left_out_and_alone_they_are_refused():
     still = run_of(5.0, begin=99.0)
     assert len(figures.heated_slopes([("a", still), ("b", run_of(5.0))]).axes[0].lines) == 1

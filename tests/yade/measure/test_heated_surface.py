@@ -112,3 +112,8 @@ def test_a_series_without_cells_is_refused():
             records.RecordsError, match="no column cells_slip_m; give that of a slope whose slip surface has"
         ):
             ask(plain)
+
+
+def test_what_are_no_cells_is_refused():
+    with pytest.raises(records.RecordsError, match="no column wall; give those of slip_surface.csv"):
+        heated.numbers(series(), {"DP": {}}, ["DP"])

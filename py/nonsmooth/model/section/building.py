@@ -6,7 +6,7 @@ import copy
 import dataclasses
 from types import MappingProxyType
 
-from ...slip import laws as slip_laws
+from ...slip import laws as slip_laws, parameter_sets
 from .. import geometry, rocks, roles
 from . import (
     checks as section_checks,
@@ -151,20 +151,24 @@ def _floats(mapping) -> dict:
     return {k: float(v) for k, v in mapping.items()}
 
 
+LEAVE_OUT = "leave one of them out, or set it to null where it is that of the base"
+
+
 def _surface_law(raw, document, keys) -> SurfaceLaw:
     """The SurfaceLaw of a material's data, which get the friction that it has before slip."""
     asked = raw["slip_law"]
     if "set" in asked and "law" in asked:
-        document.refuse((*keys, "slip_law"), "set and law are both there", "leave one out")
+        document.refuse((*keys, "slip_law"), "set and law are both there", LEAVE_OUT)
     if "slip_weakening" in raw:
-        document.refuse((*keys, "slip_law"), "slip_weakening is there too", "leave one of them out")
+        document.refuse((*keys, "slip_law"), "slip_weakening is there too", LEAVE_OUT)
     given = {
         k: tuple(map(float, v)) if isinstance(v, list) else float(v) for k, v in asked.get("parameters", {}).items()
     }
     law = asked.get("law", ())
     laws = (law,) if isinstance(law, str) else tuple(law)
     try:
-        if laws and "friction" not in given and any(one.key == "friction" for one in slip_laws.parameters(*laws)):
+        of_set = parameter_sets.law(asked["set"]).names if "set" in asked else ()
+        if "friction" not in given and any(one.key == "friction" for one in slip_laws.parameters(*laws, *of_set)):
             given["friction"] = float(raw["friction"])
         made = SurfaceLaw(laws, asked.get("set"), tuple(given.items()), float(asked.get("cell_length", 0)))
         friction = made.make().friction()

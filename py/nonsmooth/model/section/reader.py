@@ -29,7 +29,7 @@ LARGEST_FILE = 500_000  # bytes
 MOST_VALUES = 50_000  # with each alias (`*name`) counted as what it stands for
 DEEPEST = 50  # lists and maps inside each other
 MOST_ERRORS = 200  # looked at, to find the first of them
-LARGEST_NUMBER = 1e15  # squares and products of some such numbers are still finite
+LARGEST_NUMBER = 1e18  # reaction rates come to 1e16; squares and products of some such numbers are still finite
 
 
 class SectionError(UserError, ValueError):

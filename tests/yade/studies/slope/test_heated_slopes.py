@@ -13,6 +13,7 @@ from yade.nonsmooth import experiment, records, runs, section, similar, worlds
 from yade.nonsmooth.measure import heated_surface
 from yade.nonsmooth.model import geometry
 from yade.nonsmooth.model.section import data as section_data
+from yade.nonsmooth.slip import parameter_sets
 from yade.nonsmooth.slip import laws
 from yade.nonsmooth.studies.safety.asked import Asked, SafetyError
 from yade.nonsmooth.studies.slope.columns import SURFACE_COLUMNS
@@ -216,7 +217,8 @@ def test_other_walls_have_no_such_file(tmp_path):
     "made, words",
     [
         (lambda: heated(set="vaiont", law="tabulated"), "set and law are both there"),
-        (lambda: heated(set="vaiont"), "friction 0.4 before slip; give 0.4"),
+        (lambda: heated(set="vaiont", parameters={"friction": 0.4}), "friction 0.4 before slip; give 0.4"),
+        (lambda: heated(set="marble", parameters={"initial_friction": 0.5}), "friction 0.5 before slip; give 0.5"),
         (lambda: heated(set="vajont"), "'vajont': it must be one of vaiont"),
         (
             lambda: heated(law="thermal_pressurization", parameters={"thickness": 1.0}),
@@ -293,6 +295,20 @@ def test_a_mirrored_slope_has_mirrored_cells(tmp_path):
         rows.append({name: values[order] for name, values in cells.items() if name not in ("cell", "x_m", "wall")})
     for name in ("length_m", "slip_m", "normal_stress_Pa", "friction", "hottest_degC"):
         assert np.array_equal(rows[0][name], rows[1][name]), name
+
+
+def test_a_law_without_friction_of_its_own_has_that_of_the_material():
+    """Of a set too, so that a sweep over the friction varies one key; what a set says of other things stays."""
+    made = section.of(heated(set="vaiont_thin")).with_values({"materials.surface.friction": 0.5})
+    law = made.materials["surface"].slip_law.make()
+    assert law.friction() == pytest.approx(0.5, rel=1e-12) and law.values["thickness"] == 0.0014  # rounding
+
+
+def test_shipped_sets_may_be_written_out(tmp_path):
+    """The numbers of each: a reaction's rate is 3e15 a second."""
+    values = {key: value for key, (value, *_) in parameter_sets.values("calcite").items()}
+    made = section.of(heated(surface={"friction": 0.6, "slip_law": {"law": "decomposition", "parameters": values}}))
+    assert made.materials["surface"].slip_law.make().values["reaction_rate"] == 2.95e15
 
 
 def test_it_is_written_down_as_it_is(tmp_path):
