@@ -61,6 +61,9 @@ def compare(slope, plan, key, values, labels, out, heats):
             if row["numbers"][f"after_s_{left}"]["mean"] is not None:
                 numbers = (words.format(said(row, f"{name}_{left}", digits)) for name, words, digits in TOLD)
                 print(f"  {left} % of the strength were left after {', '.join(numbers)}")
+            elif row["numbers"][f"cells_slip_m_{left}"]["mean"] is not None:
+                share, slip, heat = (said(row, f"cells_{name}_{left}", 1) for name in ("share", "slip_m", "temperature_degC"))
+                print(f"  {left} % of the strength were left in a share of {share} of the cells, after {slip} m of slip there, at {heat} °C (medians)")
             elif row["verdict"] == "failed dry":
                 print(f"  when {left} % of the strength were left is not told: it moved before it had settled, so nobody knows since when")
                 break

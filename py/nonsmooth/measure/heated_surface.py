@@ -14,7 +14,7 @@ import numpy as np
 from ..records import RecordsError, since_settled
 from ..system import checks
 
-__all__ = ["BEGIN", "SHARES", "begin", "heats", "lost", "numbers", "rows", "temperatures"]
+__all__ = ["BEGIN", "SHARES", "begin", "heats", "lost", "numbers", "of_cells", "rows", "temperatures"]
 
 BEGIN = 0.1  # m/s
 #: Shares of the friction before slip that :func:`numbers` tells of.
@@ -111,9 +111,33 @@ def temperatures(cells, walls, time) -> tuple[float, float]:
     return float(mean), float(np.nanmax(cells["hottest_degC"][now]))
 
 
+def of_cells(cells, walls, share) -> dict | None:
+    """Of the cells of these ``walls`` whose friction comes to a ``share`` of that before slip: their ``share`` of all,
+    and the medians of their ``slip_m`` and ``temperature_degC`` then, of two rows the later one; None where none does.
+    The temperature is NaN for laws without a zone that heats. A mean over all cells may never come there: some lie below
+    what does not slide.
+    """
+    _check(walls, cells)
+    slips, heats, count = [], [], 0
+    for name in walls:
+        mine = cells["wall"] == name
+        for cell in np.unique(cells["cell"][mine]):
+            row = {
+                key: cells[key][mine][cells["cell"][mine] == cell] for key in ("friction", "slip_m", "temperature_degC")
+            }
+            late, count = np.flatnonzero(row["friction"] < share * row["friction"][0]), count + 1
+            if len(late):
+                slips.append(row["slip_m"][late[0]])
+                heats.append(row["temperature_degC"][late[0]])
+    if not slips:
+        return None
+    return {"share": len(slips) / count, "slip_m": float(np.median(slips)), "temperature_degC": float(np.median(heats))}
+
+
 def numbers(series, cells, walls) -> dict[str, float | None]:
     """What a run tells of its slip surface: for each of :data:`SHARES`, in per cent, ``after_s_10``, ``slip_m_10``,
-    ``speed_m_per_s_10``, ``temperature_degC_10`` and ``hottest_degC_10``, None where more is left; and
+    ``speed_m_per_s_10``, ``temperature_degC_10`` and ``hottest_degC_10``, None where more is left, and what
+    :func:`of_cells` tells, ``cells_share_10``, ``cells_slip_m_10`` and ``cells_temperature_degC_10``; and
     ``friction_rel``, the least that was left. Arguments and errors as of the functions above.
     """
     _check(walls, cells)
@@ -123,6 +147,8 @@ def numbers(series, cells, walls) -> dict[str, float | None]:
         mean, high = (None, None) if one is None else temperatures(cells, walls, one["time_s"])
         values = {name: one and one[name] for name in ("after_s", "slip_m", "speed_m_per_s")}
         values |= {"temperature_degC": mean, "hottest_degC": high}
+        own = of_cells(cells, walls, share) or dict.fromkeys(("share", "slip_m", "temperature_degC"))
+        values |= {f"cells_{name}": value for name, value in own.items()}
         found |= {
             f"{name}_{percent}": None if value is None or math.isnan(value) else value for name, value in values.items()
         }

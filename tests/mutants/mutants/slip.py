@@ -119,6 +119,7 @@ MUTANTS = (
     mutant("surface-set-friction", BUILDING, "slip_laws.parameters(*laws, *of_set)", "slip_laws.parameters(*laws)", "a set keeps its friction on a wall that has another",
            "test_heated_slopes.py"),
     mutant("sweep-within", "py/nonsmooth/campaign/sweep.py", 'ways[other].startswith(ways[key] + ".")', "False", "a key within another is dropped from a sweep", "test_campaign.py"),
+    mutant("heated-cells", HEATED, 'share * row["friction"][0]', 'share * row["friction"][-1]', "a cell's friction before slip is that of its end", "plain:test_heated_surface.py"),
     mutant("heated-back", "py/nonsmooth/figures/heated_slopes.py", 'series["cells_slip_m"][: farthest + 1] > 0', 'series["cells_slip_m"] > 0', "curves run back to less slip",
            "plain:test_figures_slip_surface.py"),
     mutant("heated-beside", "scripts/examples/heated_slopes.py", "table.beside_labels, folder / \"beside\", False)", "table.beside_labels, folder, False)",

@@ -63,7 +63,18 @@ CELLS = {
     "normal_stress_Pa": np.array([2.0, 1.0, 1.0] * 3),
     "temperature_degC": np.array([10.0, 20, 90, 30, 50, 95, 70, 70, 99]),
     "hottest_degC": np.array([15.0, 25, 99, 35, 80, 99, 75, 75, 99]),
+    "cell": np.array([0, 1, 0] * 3),
+    "slip_m": np.array([0.0, 0, 0, 5, 1, 9, 12, 2, 9]),
+    "friction": np.array([0.4, 0.4, 0.4, 0.1, 0.3, 0.01, 0.03, 0.2, 0.01]),
 }
+
+
+def test_cells_come_to_a_share_each_by_itself():
+    """Of two cells of wall a one has less than half, from the second row on; the one of wall b less than a tenth."""
+    assert heated.of_cells(CELLS, ["a"], 0.5) == {"share": 0.5, "slip_m": 5.0, "temperature_degC": 30.0}
+    found = heated.of_cells(CELLS, ["a", "b"], 0.1)
+    assert found == pytest.approx({"share": 2 / 3, "slip_m": 10.5, "temperature_degC": 82.5}, **near)
+    assert heated.of_cells(CELLS, ["a"], 0.05) is None
 
 
 @pytest.mark.parametrize(
@@ -79,8 +90,12 @@ def test_numbers_of_a_run():
     assert list(found) == ["friction_rel"] + [
         f"{name}_{percent}"
         for percent in (50, 10, 5)
-        for name in ("after_s", "slip_m", "speed_m_per_s", "temperature_degC", "hottest_degC")
+        for name in (
+            *("after_s", "slip_m", "speed_m_per_s", "temperature_degC", "hottest_degC"),
+            *("cells_share", "cells_slip_m", "cells_temperature_degC"),
+        )
     ]
+    assert [found[f"cells_{name}_50"] for name in ("share", "slip_m", "temperature_degC")] == [0.5, 5.0, 30.0]
     assert found["friction_rel"] == 0.04
     assert [found[f"{name}_10"] for name in ("after_s", "slip_m", "speed_m_per_s")] == pytest.approx(
         [2.95, 9, 6], **near
@@ -88,7 +103,8 @@ def test_numbers_of_a_run():
     assert (found["temperature_degC_10"], found["hottest_degC_10"]) == (16.0, 25.0)  # at 13 s
     assert (found["temperature_degC_5"], found["hottest_degC_5"]) == (70.0, 75.0)
     stiff = heated.numbers(series(cells_friction_rel=lambda t: 1.0 - 0.3 * (t > 12)), CELLS, ["a"])
-    assert stiff.pop("friction_rel") == pytest.approx(0.7) and set(stiff.values()) == {None}
+    assert stiff.pop("friction_rel") == pytest.approx(0.7)
+    assert {value for name, value in stiff.items() if not name.startswith("cells_")} == {None}
     cold = CELLS | {name: np.full(9, np.nan) for name in ("temperature_degC", "hottest_degC")}
     found = heated.numbers(series(), cold, ["a"])
     assert found["temperature_degC_10"] is None and found["after_s_10"] is not None
