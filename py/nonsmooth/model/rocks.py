@@ -32,6 +32,7 @@ __all__ = [
     "REACHED",
     "asked",
     "contacts",
+    "friction_angle",
     "interval",
     "like_table",
     "other_samples",
@@ -88,6 +89,12 @@ def interval() -> tuple[float, float]:
     """The smallest and the largest angle of friction [degrees] of the table, inwards to a tenth."""
     angle = _columns()[0]
     return math.ceil(10 * angle[0]) / 10, math.floor(10 * angle[-1]) / 10
+
+
+def friction_angle(friction: float) -> float:
+    """φ [degrees] of the rocks of the table whose contacts have the friction μ_s; that of the nearest one outside."""
+    angle, mu, _ = _columns()
+    return float(np.interp(math.log(friction), mu, angle)) if friction > 0 else float(angle[0])
 
 
 def contacts(cohesion: float, friction_angle: float) -> Contacts:

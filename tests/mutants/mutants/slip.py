@@ -120,6 +120,8 @@ MUTANTS = (
            "test_heated_slopes.py"),
     mutant("sweep-within", "py/nonsmooth/campaign/sweep.py", 'ways[other].startswith(ways[key] + ".")', "False", "a key within another is dropped from a sweep", "test_campaign.py"),
     mutant("heated-cells", HEATED, 'share * row["friction"][0]', 'share * row["friction"][-1]', "a cell's friction before slip is that of its end", "plain:test_heated_surface.py"),
+    mutant("slip-law-strong", CHECKS, "if most > bears[weak]:", "if False:", "nobody is told that slip leaves the wall", "test_heated_slopes.py"),
+    mutant("slip-law-peak", CHECKS, 'law.values.get("peak_friction", 0.0)', "0.0", "the peak of melt is not looked at", "test_heated_slopes.py"),
     mutant("heated-back", "py/nonsmooth/figures/heated_slopes.py", 'series["cells_slip_m"][: farthest + 1] > 0', 'series["cells_slip_m"] > 0', "curves run back to less slip",
            "plain:test_figures_slip_surface.py"),
     mutant("heated-beside", "scripts/examples/heated_slopes.py", "table.beside_labels, folder / \"beside\", False)", "table.beside_labels, folder, False)",

@@ -61,6 +61,14 @@ def test_between_two_rocks_logarithms_are_linear():
         # four digits
         assert found.friction == pytest.approx(math.sqrt(low["friction"] * high["friction"]), rel=1e-3)
         assert 1e5 / found.tensile_strength == pytest.approx(math.sqrt(share[0] * share[1]), rel=1e-3)
+        # and back; four digits of μ_s are some hundredths of a degree
+        assert rocks.friction_angle(found.friction) == pytest.approx(np.mean(angle), abs=0.02)
+
+
+def test_beyond_the_table_an_angle_is_that_of_its_last_rock():
+    rows = rocks.table()["rocks"]
+    for friction, row in ((0.0, rows[0]), (1e-3, rows[0]), (10.0, rows[-1])):
+        assert rocks.friction_angle(friction) == row["friction_angle_deg"]["mean"]
 
 
 def test_cohesion_scales_with_the_strength_of_bonds():

@@ -111,9 +111,11 @@ def check_release(section: Section, document) -> None:
 
 def notes(section: Section) -> list[str]:
     """Sentences on what is allowed, and may not be meant: a release from water by another distance than the critical
-    slip, where the paper has one for both; water that runs up the slope; windows that meet no layer; and what
-    materials that are asked for by cohesion and angle of friction are made of, with what else they depend on."""
-    return [*_release_notes(section), *_water_notes(section), *erosion.notes(section), *_rock_notes(section)]
+    slip, where the paper has one for both; water that runs up the slope; windows that meet no layer; slip laws with
+    more friction than the mass has; and what materials that are asked for by cohesion and angle of friction are made
+    of, with what else they depend on."""
+    kinds = (_release_notes, _water_notes, erosion.notes, _slip_law_notes, _rock_notes)
+    return [note for kind in kinds for note in kind(section)]
 
 
 def _release_notes(section):
@@ -143,6 +145,24 @@ def _water_notes(section):
             f"{section.source}: pressure_gradient [{x:g}, {y:g}] pushes the slope up, as the force of water is minus the gradient; for water that flows down it "
             f"x has the other sign"
         )
+
+
+def _slip_law_notes(section):
+    """A surface that is stronger than what lies on it is none: the mass then shears above it."""
+    masses = {layer.material: section.materials[layer.material] for layer in section.layers}
+    bears = {
+        name: math.tan(math.radians(m.envelope.friction_deg if m.envelope else rocks.friction_angle(m.friction)))
+        for name, m in masses.items()
+    }
+    for name in dict.fromkeys(wall.material for wall in section.with_slip_law):
+        law = section.materials[name].slip_law.make()
+        most = max(law.friction(), law.values.get("peak_friction", 0.0))
+        weak = min(bears, key=bears.get)
+        if most > bears[weak]:
+            yield (
+                f"{section.source}: the slip law of {name} has a friction of up to {most:g}, and {weak}, that lies on such walls, bears {bears[weak]:.2g} by friction "
+                "alone; slip may leave the wall, which then does not heat; give the law less friction, or the layers more"
+            )
 
 
 def _rock_notes(section):

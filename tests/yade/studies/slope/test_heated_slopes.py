@@ -12,7 +12,7 @@ import yaml
 from yade.nonsmooth import experiment, records, runs, section, similar, worlds
 from yade.nonsmooth.measure import heated_surface
 from yade.nonsmooth.model import geometry
-from yade.nonsmooth.model.section import data as section_data
+from yade.nonsmooth.model.section import checks as section_checks, data as section_data
 from yade.nonsmooth.slip import parameter_sets
 from yade.nonsmooth.slip import laws
 from yade.nonsmooth.studies.safety.asked import Asked, SafetyError
@@ -302,6 +302,24 @@ def test_a_law_without_friction_of_its_own_has_that_of_the_material():
     made = section.of(heated(set="vaiont_thin")).with_values({"materials.surface.friction": 0.5})
     law = made.materials["surface"].slip_law.make()
     assert law.friction() == pytest.approx(0.5, rel=1e-12) and law.values["thickness"] == 0.0014  # rounding
+
+
+def test_a_law_with_more_friction_than_the_mass_bears_is_warned_of():
+    """Of dry rock, which melts with a friction of 1, on the paper's rock: samples of its contacts have 37.7°, its envelope
+    37.2°. One of 0.7 is not. Without an envelope the contacts' friction counts.
+    """
+
+    def notes(before, law, **layers):
+        made = section_data.plain(section.load("jiufengershan_heated"))
+        made["materials"]["dp"] = {"bonded": False, "friction": before, "rolling_friction": 0.1, "slip_law": law}
+        made["materials"]["rock"] = {k: v for k, v in (made["materials"]["rock"] | layers).items() if v is not None}
+        return [note for note in section_checks.notes(section.of(made)) if "slip law" in note]
+
+    (found,) = notes(0.8, {"set": "gabbro"})
+    assert "the slip law of dp has a friction of up to 1, and rock, that lies on such walls, bears 0.76" in found
+    assert notes(0.7, {"set": "jiufengershan"}) == []
+    (found,) = notes(0.7, {"set": "jiufengershan"}, envelope=None, friction=0.15)
+    assert "bears 0.5" in found  # some 27°, between the rocks with 0.1 and 0.3 of the table
 
 
 def test_shipped_sets_may_be_written_out(tmp_path):
