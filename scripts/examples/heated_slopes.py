@@ -53,7 +53,7 @@ def compare(slope, plan, key, values, labels, out, heats):
     of_surface = [heated_surface.numbers(run.series, run.slip_surface, walls) if heats else {} for run in opened]
     for one in of_surface[0]:
         found[one] = [numbers[one] for numbers in of_surface]
-    label_of = dict(zip(map(str, values), labels or map(str, values)))
+    label_of = {str(value): str(label).replace("_", " ") for value, label in zip(values, labels or values)}  # tables know no spaces
     for row in campaign.means(found, [key, "seed"]):
         value = str(row["values"][key])
         print(f"{label_of[value]}: {len(row['seeds'])} of {row['of']} {row['verdict']}, the water at {said(row, 'water_at_failure_m', 1)} m")

@@ -376,7 +376,7 @@ def test_the_script_that_compares_slip_laws(tmp_path):
     assert told["3"]["when_failed"]["front_travel_m"]["mean"] == pytest.approx(
         np.mean([run.summary["front_travel_m"] for run in of_runs])
     )
-    assert "slip_m_50" not in told["3"]["when_failed"] and "told_at_3_m: 2 of 2 failed by water" in done.stdout
+    assert "slip_m_50" not in told["3"]["when_failed"] and "told at 3 m: 2 of 2 failed by water" in done.stdout
     # a thick zone takes more slip, and D_c goes with its thickness
     thin, thick = (told[key]["when_failed"]["slip_m_50"]["mean"] for key in ("0_01", "0_05"))
     assert thick > 2 * thin
