@@ -96,7 +96,7 @@ def _check(walls, cells):
 
 
 def temperatures(cells, walls, time) -> tuple[float, float]:
-    """Mean temperature of the zone by the load, and the highest across it [°C], in the row of ``cells`` (columns of
+    """Mean temperature of the zone by length, as its heat is, and the highest across it [°C], in the row of ``cells`` (columns of
     ``slip_surface.csv``) that is nearest to a ``time`` [s], of these ``walls``; NaN for laws without a zone that heats.
     Raises RecordsError for a wall that is not in the cells.
     """
@@ -106,9 +106,7 @@ def temperatures(cells, walls, time) -> tuple[float, float]:
     heat = cells["temperature_degC"][now]
     if not len(heat) or np.isnan(heat).all():
         return math.nan, math.nan
-    load = cells["length_m"][now] * cells["normal_stress_Pa"][now]
-    mean = np.average(heat, weights=load if load.any() else None)
-    return float(mean), float(np.nanmax(cells["hottest_degC"][now]))
+    return float(np.average(heat, weights=cells["length_m"][now])), float(np.nanmax(cells["hottest_degC"][now]))
 
 
 def of_cells(cells, walls, share) -> dict | None:
