@@ -33,7 +33,7 @@ def sweep(base, over, end=None, figures=False) -> Plan:
     time; ``figures``: draw each run's too.
 
     Raises PlanError for what is no Section, no such dictionary or no time, for a key that the section has not, for no
-    or doubled values, for a key within another, and for more than :data:`MOST` runs; SectionError, naming the run, where a combination is no
+    or doubled values, for a key before one that holds it, and for more than :data:`MOST` runs; SectionError, naming the run, where a combination is no
     section.
     """
     _check(base, "base", end)
@@ -60,10 +60,10 @@ def combinations(base, over, arguments) -> tuple:
         if len({repr(v) for v in values}) < len(values):
             raise PlanError(f"{key}: {', '.join(map(str, values))}: a value stands twice; give each once")
     ways = {key: key if isinstance(key, str) else ".".join(map(str, key)) for key in over}
-    for key, other in itertools.permutations(over, 2):
-        if ways[other].startswith(ways[key] + "."):
+    for key, later in itertools.combinations(over, 2):
+        if ways[key].startswith(ways[later] + "."):
             raise PlanError(
-                f"{ways[key]} and {ways[other]}: the values of the one hold those of the other; vary one of them, with whole values"
+                f"{ways[key]} and {ways[later]}: the values of the second take the place of those of the first; name {ways[later]} first, or vary one of them"
             )
     number = 1
     for values in over.values():

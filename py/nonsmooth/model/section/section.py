@@ -390,7 +390,7 @@ class Section:
         slips = self.critical_slips
         if not slips:
             raise SectionError(
-                f"{self.source}: a critical slip of {distance:g} m, and no slip surface weakens by a critical slip; add `slip_weakening` to the material of one that has no `slip_law`"
+                f"{self.source}: a critical slip of {distance:g} m, and no slip surface weakens; add `slip_weakening` to the material of one that has no `slip_law`"
             )
         weak = {one.material for one in self.sliding if one.name in slips}
         values = {("materials", name, "slip_weakening", "critical_slip"): float(distance) for name in sorted(weak)}
