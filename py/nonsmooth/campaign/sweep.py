@@ -32,9 +32,9 @@ def sweep(base, over, end=None, figures=False) -> Plan:
     with its values gives (see :func:`.section_values.with_values`). ``end``: stop after so many seconds of simulated
     time; ``figures``: draw each run's too.
 
-    Raises PlanError for what is no Section, no such dictionary or no time, for a key that the section has not, for no
-    or doubled values, for a key before one that holds it, and for more than :data:`MOST` runs; SectionError, naming the run, where a combination is no
-    section.
+    Raises PlanError for what is no Section, no such dictionary or no time, for a key that the section has not, for
+    no or doubled values, for a key before one that holds it, and for more than :data:`MOST` runs; SectionError,
+    naming the run, where a combination is no section.
     """
     _check(base, "base", end)
     planned, notes = combinations(base, over, lambda made: arguments_of(made, end, figures))
