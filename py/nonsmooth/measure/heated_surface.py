@@ -11,7 +11,7 @@ import math
 
 import numpy as np
 
-from ..records import RecordsError, since_settled
+from ..records import RecordsError, since_settled, surface_arrays
 from ..system import checks
 
 __all__ = ["BEGIN", "SHARES", "begin", "heats", "lost", "numbers", "of_cells", "rows", "temperatures"]
@@ -96,9 +96,9 @@ def _check(walls, cells):
 
 
 def temperatures(cells, walls, time) -> tuple[float, float]:
-    """Mean temperature of the zone by length, as its heat is, and the highest across it [°C], in the row of ``cells`` (columns of
-    ``slip_surface.csv``) that is nearest to a ``time`` [s], of these ``walls``; NaN for laws without a zone that heats.
-    Raises RecordsError for a wall that is not in the cells.
+    """Mean temperature of the zone by length, as its heat is, and the highest across it [°C], in the row of ``cells``
+    (columns of ``slip_surface.csv``) that is nearest to a ``time`` [s], of these ``walls``; NaN for laws without a zone
+    that heats. Raises RecordsError for a wall that is not in the cells.
     """
     _check(walls, cells)
     now = cells["time_s"] == cells["time_s"][np.argmin(np.abs(cells["time_s"] - time))]
@@ -116,20 +116,18 @@ def of_cells(cells, walls, share) -> dict | None:
     what does not slide.
     """
     _check(walls, cells)
-    slips, heats, count = [], [], 0
+    arrays, slips, heats, count = surface_arrays(cells), [], [], 0
     for name in walls:
-        mine = cells["wall"] == name
-        for cell in np.unique(cells["cell"][mine]):
-            row = {
-                key: cells[key][mine][cells["cell"][mine] == cell] for key in ("friction", "slip_m", "temperature_degC")
-            }
-            late, count = np.flatnonzero(row["friction"] < share * row["friction"][0]), count + 1
-            if len(late):
-                slips.append(row["slip_m"][late[0]])
-                heats.append(row["temperature_degC"][late[0]])
-    if not slips:
+        one = arrays[name]
+        weak = one["friction"] < share * one["friction"][0]
+        cell = np.flatnonzero(weak.any(axis=0))
+        row, count = weak.argmax(axis=0)[cell], count + weak.shape[1]
+        slips.append(one["slip_m"][row, cell])
+        heats.append(one["temperature_degC"][row, cell] if "temperature_degC" in one else np.full(len(cell), np.nan))
+    slip, heat = np.concatenate(slips), np.concatenate(heats)
+    if not len(slip):
         return None
-    return {"share": len(slips) / count, "slip_m": float(np.median(slips)), "temperature_degC": float(np.median(heats))}
+    return {"share": len(slip) / count, "slip_m": float(np.median(slip)), "temperature_degC": float(np.median(heat))}
 
 
 def numbers(series, cells, walls) -> dict[str, float | None]:

@@ -66,7 +66,8 @@ def _of_wall(cells, wall):
 
 def read_surface_arrays(path) -> dict:
     """:func:`surface_arrays` of a run, from its ``slip_surface.csv``, or from its ``slip_surface.h5``, by the suffix
-    (.h5, .hdf5): the same bits, of walls in alphabetical order. Raises RecordsError for a file that cannot be read as one of both.
+    (.h5, .hdf5): the same bits, of walls in alphabetical order. Raises RecordsError for a file that cannot be read as
+    one of both.
     """
     path = Path(checks.path("path", path, RecordsError, "give the path of slip_surface.csv or slip_surface.h5"))
     if path.suffix.lower() not in HDF5:

@@ -154,10 +154,10 @@ def _slip_law_notes(section):
         name: math.tan(math.radians(m.envelope.friction_deg if m.envelope else rocks.friction_angle(m.friction)))
         for name, m in masses.items()
     }
+    weak = min(bears, key=bears.get)
     for name in dict.fromkeys(wall.material for wall in section.with_slip_law):
         law = section.materials[name].slip_law.make()
         most = max(law.friction(), law.values.get("peak_friction", 0.0))
-        weak = min(bears, key=bears.get)
         if most > bears[weak]:
             yield (
                 f"{section.source}: the slip law of {name} has a friction of up to {most:g}, and {weak}, that lies on such walls, bears {bears[weak]:.2g} by friction "

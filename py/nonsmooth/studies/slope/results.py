@@ -55,6 +55,7 @@ LEDGER = "eroded.csv"  # of disks that were taken out
 SURFACE = "slip_surface.csv"  # of cells along walls with slip laws
 SURFACE_ARRAYS = "slip_surface.h5"  # the same, of a run that has ended
 SUMMARY, BREAKS, BEGIN, END = "summary.json", "breaks.csv", "t0.npz", "end.npz"
+LEFT = (*INPUTS, SUMMARY, BREAKS, LEDGER, SURFACE, SURFACE_ARRAYS, BEGIN, END)
 SNAPSHOTS, PARAVIEW = frames.FOLDER, "vtk"
 #: Names of the figures in the order in which they are drawn; of their files with ".png".
 PICTURES = tuple(
@@ -71,7 +72,7 @@ def forget(folder):
     """
     folder = Path(folder)
     remove(
-        [folder / name for name in (SUMMARY, BREAKS, LEDGER, SURFACE, SURFACE_ARRAYS, BEGIN, END, *INPUTS, *FIGURES)]
+        [folder / name for name in (*LEFT, *FIGURES)]
         + _written(folder / SNAPSHOTS, r"\d{8,}\.npz")
         + _written(
             folder / PARAVIEW, r"((disks|contacts|slip_surface)-\w+|walls|breaks)\.vtu|(avalanche|slip_surface)\.pvd"
@@ -101,8 +102,7 @@ def foreign(folder):
         pass
     if (folder / "key").exists():  # kept_runs has begun one
         return None
-    of_run = (SERIES, WALLS, SECTION, *INPUTS, SUMMARY, BREAKS, LEDGER, SURFACE, SURFACE_ARRAYS, BEGIN, END)
-    names = (*of_run, *FIGURES, "checkpoint")
+    names = (SERIES, WALLS, SECTION, *LEFT, *FIGURES, "checkpoint")
     found = [folder / name for name in names if (folder / name).exists()]
     found += _written(folder / SNAPSHOTS, r"\d{8,}\.npz") + _written(folder / PARAVIEW, r".*\.(vtu|pvd)")
     return found[0].relative_to(folder).as_posix() if found else None
