@@ -14,7 +14,7 @@ import numpy as np
 
 from ..model import roles
 
-__all__ = ["Surface", "displacements", "surfaces"]
+__all__ = ["Surface", "displacements", "halves", "surfaces"]
 
 
 class Surface(NamedTuple):
@@ -65,6 +65,40 @@ def displacements(found, begin, x, y, numbers=None) -> dict[str, float]:
         along[there] = (x - begin.x[there]) * one.way[0] + (y - begin.y[there]) * one.way[1]
         told[one.name] = _mean(along, one.above) - _mean(along, one.below)
     return told
+
+
+def halves(surface, begin, shots, slip) -> tuple[float, float] | None:
+    """How far the upper and the lower half of a Surface have slipped since the Snapshot ``begin`` when all of it has, in
+    the mean, slipped by ``slip`` [m]: a pair [m], linear between two snapshots; None where it never has, or where a half
+    has no disk. Weakening that spreads down a surface finds the upper half ahead (Taboada and Estrada 2009, [117]).
+
+    ``shots``: Snapshots in the course of time, which may be read one by one; disks that are gone count no longer. The
+    halves part the line between the first and the last of the disks that touched the surface.
+    """
+    along = begin.x * surface.way[0] + begin.y * surface.way[1]
+    on = np.r_[surface.above, surface.below]
+    if not len(on):
+        return None
+    middle = (along[on].min() + along[on].max()) / 2
+    parts = [
+        surface._replace(above=above, below=below)
+        for above, below in (
+            (surface.above[along[surface.above] < middle], surface.below[along[surface.below] < middle]),
+            (surface.above[along[surface.above] >= middle], surface.below[along[surface.below] >= middle]),
+        )
+    ]
+    if not all(len(part.above) for part in parts):
+        return None
+    before = np.zeros(3)
+    for shot in shots:
+        now = np.array(
+            [displacements([one], begin, shot.x, shot.y, shot.number)[one.name] for one in (surface, *parts)]
+        )
+        if now[0] >= slip > before[0]:
+            share = (slip - before[0]) / (now[0] - before[0])
+            return tuple((before + share * (now - before))[1:].tolist())
+        before = now
+    return None
 
 
 def _mean(values, chosen):

@@ -1,5 +1,6 @@
 """Displacements along slip surfaces, of made-up disks that were moved by known ways. Needs no YADE."""
 
+import dataclasses
 import math
 import sys
 from pathlib import Path
@@ -134,3 +135,59 @@ def test_a_disk_that_is_gone_counts_no_longer():
     assert told["plane"] == pytest.approx(1.0) and told["joint"] == pytest.approx(5.5 - 2.0)
     last = surface_slip.displacements(found, begin, x[1:], y[1:], left[1:])
     assert last["plane"] == 0.0 and last["joint"] == told["joint"]
+
+
+# ---- which half is ahead ----------------------------------------------------------------------------
+def moved(begin, time, *ways, numbers=None):
+    """The snapshot of :func:`snapshot` with the disks moved down a plane of 30° by ``ways`` [m]."""
+    ways = np.array(ways)
+    way = np.array([math.cos(math.radians(30)), -0.5])
+    told = dict(time_s=time, x=begin.x + ways * way[0], y=begin.y + ways * way[1])
+    if numbers is not None:
+        names = ("x", "y", "r", "layer")
+        told = {name: told.get(name, getattr(begin, name))[numbers] for name in names} | dict(
+            time_s=time, number=np.array(numbers), **dict.fromkeys(("ci", "cj", "cn", "ct", "cbonded", "cx", "cy"))
+        )
+    return snapshot(**told)
+
+
+def test_the_half_that_is_ahead_is_so_when_the_mean_comes_to_the_slip_asked_for():
+    """Disks 0 and 1 on the plane, 0 the upper one: 2 and 1 m, then 8 and 3 m. The mean is 5 m at (5 - 1.5) / (5.5 -
+    1.5) = 7/8 of the way between: 2 + 6 * 7/8 = 7.25 and 1 + 2 * 7/8 = 2.75 m."""
+    made, _ = two_layers(interface=False)
+    begin = snapshot()
+    (plane,) = surface_slip.surfaces(made, begin)
+    shots = [moved(begin, 2.0, 2, 1, 9, 9, 9, 9), moved(begin, 3.0, 8, 3, 9, 9, 9, 9)]
+    assert surface_slip.halves(plane, begin, iter(shots), 5.0) == pytest.approx((7.25, 2.75), rel=1e-12)
+    assert surface_slip.halves(plane, begin, shots[1:], 5.5) == pytest.approx((8, 3), rel=1e-12)
+    assert surface_slip.halves(plane, begin, shots, 5.51) is None  # it never slips so far
+    mirrored = similar.mirrored(made)
+    (other,) = surface_slip.surfaces(mirrored, begin)
+    turned = [dataclasses.replace(one, x=-one.x) for one in (begin, *shots)]
+    assert surface_slip.halves(other, turned[0], turned[1:], 5.0) == pytest.approx((7.25, 2.75), rel=1e-12)
+
+
+def test_of_an_interface_a_half_slips_on_the_one_below_it():
+    """On the joint 3 and 5 above, 2 and 4 below: each pair lies in one half."""
+    made, _ = two_layers()
+    begin = snapshot(layer=np.array([0, 0, 0, 1, 0, 1]), ci=np.array([3, 5]), cj=np.array([2, 4]), **_no_forces(2))
+    joint = next(one for one in surface_slip.surfaces(made, begin) if one.name == "joint")
+    assert joint.above.tolist() == [3, 5] and joint.below.tolist() == [2, 4]
+    shot = moved(begin, 2.0, 0, 0, 1, 7, 2, 4)
+    assert surface_slip.halves(joint, begin, [shot], 4.0) == pytest.approx((6, 2), rel=1e-12)
+
+
+def test_disks_that_are_gone_have_no_half():
+    """With disk 0 taken out the upper half has no slip, and a surface that one disk touches has no second half."""
+    made, _ = two_layers(interface=False)
+    begin = snapshot(ci=np.array([0, 1, 3]), cj=np.array([-1, -1, -1]), **_no_forces(3))
+    (plane,) = surface_slip.surfaces(made, begin)
+    shot = moved(begin, 2.0, 9, 4, 9, 6, 9, 9, numbers=[1, 3])  # 1 in the upper half with 0, 3 in the lower
+    assert surface_slip.halves(plane, begin, [shot], 5.0) == pytest.approx((4, 6), rel=1e-12)
+    assert surface_slip.halves(plane._replace(above=plane.above[:1]), begin, [shot], 1.0) is None
+    assert surface_slip.halves(plane._replace(above=plane.above[:0]), begin, [shot], 1.0) is None
+
+
+def _no_forces(contacts):
+    zero = np.zeros(contacts)
+    return dict(cn=zero, ct=zero, cbonded=zero > 1, cx=zero, cy=zero)

@@ -15,12 +15,14 @@ from pathlib import Path
 
 from ...campaign.plan import SEED, VERDICT, Plan, PlanError, Planned, numbers as numbers_of
 from ...campaign.sweep import FUNCTION, arguments_of
-from ...measure import force_stages
+from ...measure import force_stages, surface_slip
 from ...measure.statistics import over_seeds, told
 from ...model import section
 from ...model.section import values as section_values
 from ...system import checks
+from ...records import read_snapshot
 from ..runs import open_run
+from ..slope import frames
 
 __all__ = [
     "CHANGES",
@@ -155,11 +157,13 @@ def rows(found) -> list:
     surface came to D_c, and ``numbers``, {name of a number of the summary, those of its dictionaries as ``key.key``: as
     statistics.over_seeds has it over the slopes that have it, with ``of``, how many these are}. Among these are
     ``triggering_by_speed_s`` and ``motion_by_speed_s``, t3 − t2 and t5 − t3 by other thresholds of speed;
-    ``water_halved_s``, see force_stages.water_halved; and ``since_t0_s``, t1 to t5 counted from t0.
+    ``water_halved_s``, see force_stages.water_halved; ``since_t0_s``, t1 to t5 counted from t0; and ``slip_m``, the slip
+    of the ``upper`` and of the ``lower`` half of the slip surface as its mean comes to D_c, and by how much the upper
+    one is ``ahead``.
     """
     found_rows = []
     for name, runs in found.items():
-        summaries = [numbers_of(one.summary | _durations(one)) for one in runs]
+        summaries = [numbers_of(one.summary | _durations(one) | _slips(one)) for one in runs]
         kinds = [one.get(VERDICT) for one in summaries]
         numbers = {}
         for key in dict.fromkeys(key for one in summaries for key in one):
@@ -204,6 +208,17 @@ def _durations(run):
         "since_t0_s": {name: less(time, times.get("t0")) for name, time in times.items() if name != "t0"},
         "water_halved_s": None if times.get("t2") is None else force_stages.water_halved(run.series, times),
     }
+
+
+def _slips(run):
+    """Which half of the slip surface is ahead as it weakens, see :func:`rows`; nothing where it does not weaken."""
+    if run.summary.get("weakening_begins_s") is None:
+        return {}
+    begin, critical = run.snapshot("t0"), run.section.critical_slips
+    surface = next(one for one in surface_slip.surfaces(run.section, begin) if one.name in critical)
+    since = [path for time, path in frames.of_run(run.folder, run.series) if time > begin.time_s]
+    found = surface_slip.halves(surface, begin, map(read_snapshot, since), critical[surface.name])
+    return {} if found is None else {"slip_m": dict(zip(("upper", "lower", "ahead"), (*found, found[0] - found[1])))}
 
 
 #: {number: (its head in a table, its factor, digits)}.

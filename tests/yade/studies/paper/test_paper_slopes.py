@@ -153,8 +153,23 @@ def runs_of(*summaries):
     return [SimpleNamespace(summary=one, series=SERIES) for one in summaries]
 
 
-def test_rows_have_means_over_the_slopes_that_have_a_number():
+def test_the_half_of_the_slip_surface_that_is_ahead_is_told(whole):
+    """Beside the slips of the disks on DP, between the snapshots that hold their mean of D_c."""
+    run = runs.open_run(whole.folder)
+    (row,) = paper_slopes.rows({"shipped": [run]})
+    upper, lower, ahead = (row["numbers"][f"slip_m.{name}"]["mean"] for name in ("upper", "lower", "ahead"))
+    assert ahead == pytest.approx(upper - lower, rel=1e-12) and min(upper, lower) > 0
+    d_c = run.section.critical_slips["DP"]
+    # halves of a line have not quite as many disks each, so the mean of both is that of all by half or so
+    assert abs((upper + lower) / 2 - d_c) < 0.5 * abs(ahead) + 1e-9 and upper != lower
+    stood = {"summary": run.summary | {"weakening_begins_s": None}}
+    (row,) = paper_slopes.rows({"shipped": [SimpleNamespace(**vars_of(run) | stood)]})
+    assert not any(name.startswith("slip_m") for name in row["numbers"])
+
+
+def test_rows_have_means_over_the_slopes_that_have_a_number(monkeypatch):
     """Student's t of two: 12.706; of one there is no interval. What became of slopes is counted."""
+    monkeypatch.setattr(paper_slopes, "_slips", lambda run: {})  # these have no snapshots
     found = {
         "held": runs_of(
             {
