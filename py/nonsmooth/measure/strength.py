@@ -22,6 +22,8 @@ from .statistics import standard_error
 
 __all__ = [
     "FIGURE_10",
+    "ONSET",
+    "ONSET_WINDOW",
     "PEAK_WINDOW",
     "PLATEAU",
     "SHORTEST",
@@ -35,10 +37,13 @@ __all__ = [
     "later_share",
     "lateral_stress",
     "mean_between",
+    "onset",
     "running_mean",
 ]
 
 PEAK_WINDOW = 2e-3  # strain over which the stress is averaged before its maximum is taken
+# a peak's window begins where the stress has only begun to rise, so it tells less than a sample bears before it fails
+ONSET, ONSET_WINDOW = 5e-3, 2e-4  # strain up to which a sample begins to fail; over which the stress is averaged then
 DILATANCY_WINDOW = 5e-3  # strain around the peak over which the slope of the volume is taken
 PLATEAU = 0.5  # share of a test's strain from which on the residual strength is the mean
 # strain from which on the paper's tests are on their plateau (section 5.2); a mean that begins before is no residual
@@ -108,6 +113,24 @@ def curve(series, plateau):
         imbalance=float(max(gap(at), gap(late))),
         volumetric_end=float(series["volumetric_strain"][-1]),
     )
+
+
+def onset(series) -> tuple[float, float, float]:
+    """What a sample bears as it begins to fail: (σ₃, σ₁) [Pa] where σ₁, in means over :data:`ONSET_WINDOW` of strain,
+    is the largest up to :data:`ONSET`, and the strain in the middle of that window. A slope that stands has not come
+    farther on its curve.
+
+    ``series``: of a test. Raises ValueError where the test ends before.
+    """
+    strain, axial = np.asarray(series["strain"], float), axial_stress(series)
+    begin, mean = running_mean(strain, axial, ONSET_WINDOW)
+    before = begin + ONSET_WINDOW <= ONSET + 1e-9
+    if strain[-1] < ONSET - 1e-4:
+        raise ValueError(f"the test ended at a strain of {strain[-1]:.4f}, before {ONSET:g}")
+    k = int(np.argmax(mean[before]))
+    middle = begin[k] + ONSET_WINDOW / 2
+    at = np.abs(strain - middle) <= ONSET_WINDOW / 2 + 1e-12
+    return float(lateral_stress(series)[at].mean()), float(mean[k]), float(middle)
 
 
 def axial_stress(series):

@@ -52,6 +52,41 @@ def made_curve(noise=0.0):
     }
 
 
+def early_curve(later=0.0):
+    """A stress that rises to 5 MPa at 0.05 % of strain and has fallen to 4 at 0.2 %, where it stays; ``later`` [Pa] more
+    from 1 % on. Rows are as fine as a biaxial test's where its platens take up their speed.
+    """
+    strain = np.r_[np.arange(1, 100) * 2e-5, np.arange(20, 301) * 1e-4]
+    axial = np.interp(strain - np.diff(strain, prepend=0) / 2, [0, 5e-4, 2e-3], [1e6, 5e6, 4e6]) + later * (
+        strain > 0.01
+    )
+    return {
+        "strain": strain,
+        "sigma1_top_Pa": 1.02 * axial,
+        "sigma1_bottom_Pa": 0.98 * axial,
+        "sigma3_left_Pa": 1e6 + 1e9 * strain,
+        "sigma3_right_Pa": 1e6 + 1e9 * strain,
+    }
+
+
+def test_what_a_sample_bears_as_it_begins_to_fail_is_the_largest_stress_before_it_does():
+    """Of the triangle's top, 0.02 % of strain wide, the mean is highest where both ends are as high: x before and 0.02 %
+    - x after it, with slopes of 8 and 2/3 GPa: x = 0.02/13 %. What comes after half a per cent does not count, and a
+    peak's window, ten times as wide, tells less.
+    """
+    x = 2e-4 * (2 / 3) / (8 + 2 / 3)
+    mean = 5e6 - (8e9 * x**2 + 1e9 / 1.5 * (2e-4 - x) ** 2) / 2 / 2e-4
+    for later in (0.0, 3e6):
+        minor, major, strain = strength.onset(early_curve(later))
+        # windows begin where rows do, which are a tenth of it apart
+        assert major == pytest.approx(mean, rel=2e-3) and strain == pytest.approx(5e-4 - x + 1e-4, abs=2e-5)
+        assert minor == pytest.approx(1e6 + 1e9 * strain, rel=0.02)  # of the same window
+    _, wide = strength.running_mean(early_curve()["strain"], strength.axial_stress(early_curve()), strength.PEAK_WINDOW)
+    assert wide.max() < 0.96 * mean
+    with pytest.raises(ValueError, match="the test ended at a strain of 0.0020, before 0.005"):
+        strength.onset({name: values[:100] for name, values in early_curve().items()})
+
+
 def test_a_mean_between_two_strains_counts_what_rows_cover():
     """Rows of 0.1, 0.2 and 0.3 % of strain: the mean from 0.1 to 0.6 % is two and three parts of the last two; none
     where the test ends before.

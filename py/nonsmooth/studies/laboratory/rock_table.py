@@ -18,6 +18,7 @@ import numpy as np
 from ...measure import strength
 from ...measure.statistics import half_width, over_seeds, told
 from ...model import materials, rocks
+from ...records import read_series
 from . import biaxial_test, campaign
 from .pressing import Shape
 
@@ -43,11 +44,11 @@ __all__ = [
     "variants",
 ]
 
-FRICTIONS = (0.025, 0.05, 0.1, 0.15, 0.2, 0.3, 0.45)
+FRICTIONS = (0.005, 0.01, 0.025, 0.05, 0.1, 0.15, 0.2, 0.3, 0.45)
 SEEDS = (1, 2, 3, 4, 5)
-COUNT = 1000  # disks; the peak of 2,000 is the same (biaxial_effects.py)
+COUNT = 1000  # disks; 2,000 bear the same (biaxial_effects.py)
 PRESSURES = (0.4, 2.5, 10.0, 40.0)  # σ₃/σ_ext: about those of a calibration, 0.5 to 48 c
-STRAIN = 0.03  # at the end: the peak lies between 0.1 and 2 %
+STRAIN = strength.ONSET  # at the end: what a sample bears as it begins to fail (strength.onset)
 USUAL = 0.3  # friction of the variants, the paper's
 FEW = 3  # samples of a variant: the same as the table's first, so that they differ by what is varied
 SMALL = 500  # disks of the variant that says what a small sample does
@@ -126,35 +127,44 @@ def run(out, wanted, seeds=SEEDS, threads=1, resume=False, progress=lambda share
     """Tests Entries below ``out``; returns for each a dictionary, see :func:`row`. Raises as campaign.run does."""
     whole, done, found = sum(e.count for e in wanted), 0, []
     for entry in wanted:
+        tests, folder = entry.tests(seeds), Path(out) / entry.name
         measured = campaign.run(
-            entry.tests(seeds),
-            Path(out) / entry.name,
+            tests,
+            folder,
             threads,
             resume,
             lambda share, doing, d=done, e=entry: progress((d + share * e.count) / whole, f"{e.label}: {doing}"),
         )
         done += entry.count
-        found.append(row(entry, measured))
+        found.append(row(entry, [m | onset(folder, test) for m, test in zip(measured, tests, strict=True)]))
     return found
+
+
+def onset(folder, test):
+    """What a test of those below ``folder`` says of its sample as that begins to fail, see strength.onset:
+    ``sigma3_onset_Pa``, ``sigma1_onset_Pa`` and ``strain_onset``.
+    """
+    minor, major, strain = strength.onset(read_series(Path(folder) / "tests" / campaign.name_of(test) / "series.csv"))
+    return {"sigma3_onset_Pa": minor, "sigma1_onset_Pa": major, "strain_onset": strain}
 
 
 def row(entry, measured):
     """What an Entry's tests say: friction of its contacts, ``cohesion_over_tensile_strength`` and
     ``friction_angle_deg`` over seeds (statistics.over_seeds), the former also ``cohesion_without_lowest`` pressure, and
-    the principal stresses of the peaks."""
+    the principal stresses as samples begin to fail."""
     by_seed, unit = {}, entry.material.tensile_strength
     for m in measured:
         by_seed.setdefault(m["seed"], []).append(m)
     fits = [
-        strength.envelope([m["sigma3_peak_Pa"] for m in group], [m["sigma1_peak_Pa"] for m in group])
+        strength.envelope([m["sigma3_onset_Pa"] for m in group], [m["sigma1_onset_Pa"] for m in group])
         for group in by_seed.values()
     ]
     # the envelope is curved: that of higher pressures alone, as Table 1 has, cuts the axis higher
     lowest = min(m["confining_Pa"] for m in measured)
     without = [
         strength.envelope(
-            [m["sigma3_peak_Pa"] for m in group if m["confining_Pa"] > lowest],
-            [m["sigma1_peak_Pa"] for m in group if m["confining_Pa"] > lowest],
+            [m["sigma3_onset_Pa"] for m in group if m["confining_Pa"] > lowest],
+            [m["sigma1_onset_Pa"] for m in group if m["confining_Pa"] > lowest],
         )
         for group in by_seed.values()
     ]
@@ -168,12 +178,12 @@ def row(entry, measured):
         "disks": sorted({m["disks"] for m in measured}),
         "seeds": list(by_seed),
         "packing_fraction": float(np.mean([m["packing_fraction"] for m in measured])),
-        "peaks": [
+        "onsets": [
             {
                 "seed": m["seed"],
-                "confining_over_tensile_strength": m["sigma3_peak_Pa"] / unit,
-                "axial_over_tensile_strength": m["sigma1_peak_Pa"] / unit,
-                "strain": m["strain_peak"],
+                "confining_over_tensile_strength": m["sigma3_onset_Pa"] / unit,
+                "axial_over_tensile_strength": m["sigma1_onset_Pa"] / unit,
+                "strain": m["strain_onset"],
             }
             for m in measured
         ],
@@ -218,7 +228,7 @@ def table(found, others, command):
             "residual_friction_over_friction": 1.0,
             "residual_tensile_strength_over_tensile_strength": wwr.residual_tensile_strength / wwr.tensile_strength,
         },
-        # what the variants have measured: the peak stays within what samples scatter
+        # what the variants have measured: strengths stay within what samples scatter
         "open": {
             "residual_friction": {"of": "friction", "from": 0.5, "to": 1.0},
             "residual_tensile_strength": {

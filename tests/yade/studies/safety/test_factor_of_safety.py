@@ -156,7 +156,7 @@ def test_factors_stay_within_the_table_that_is_divided_by():
     asked = safety_asked.Asked(made, quantities=("envelope",))
     reaches = [rocks.reach(made.materials[name]) for name in ("lower", "middle", "sand")]
     rules = asked.rules()
-    assert rules.most == min(most for _, most in reaches) < 2 and rules.least == max(low for low, _ in reaches) > 0.6
+    assert rules.most == min(most for _, most in reaches) < 2.5 and rules.least == max(low for low, _ in reaches) > 0.6
     for factor in (rules.most, rules.least):
         assert asked.strengths(factor)
     # what was asked for is no further, and other quantities know no table
