@@ -59,12 +59,8 @@ def combinations(base, over, arguments) -> tuple:
             raise PlanError(f"{key}: no value to run with; give one or more")
         if len({repr(v) for v in values}) < len(values):
             raise PlanError(f"{key}: {', '.join(map(str, values))}: a value stands twice; give each once")
-    ways = {key: key if isinstance(key, str) else ".".join(map(str, key)) for key in over}
-    for key, later in itertools.combinations(over, 2):
-        if ways[key].startswith(ways[later] + "."):
-            raise PlanError(
-                f"{ways[key]} and {ways[later]}: the values of the second take the place of those of the first; name {ways[later]} first, or vary one of them"
-            )
+    if lost := section_values.replaced(over):
+        raise PlanError(lost)
     number = 1
     for values in over.values():
         number *= len(values)

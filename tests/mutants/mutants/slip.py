@@ -118,7 +118,7 @@ MUTANTS = (
     mutant("settled-heats", "py/nonsmooth/studies/slope/wall_series.py", "self._set_held(False)", "pass", "a seam never heats", "test_heated_slopes.py"),
     mutant("surface-set-friction", BUILDING, "slip_laws.parameters(*laws, *of_set)", "slip_laws.parameters(*laws)", "a set keeps its friction on a wall that has another",
            "test_heated_slopes.py"),
-    mutant("sweep-within", "py/nonsmooth/campaign/sweep.py", 'ways[key].startswith(ways[later] + ".")', "False", "a key within another is dropped from a sweep", "test_campaign.py"),
+    mutant("sweep-within", "py/nonsmooth/model/section/values.py", 'way.startswith(later + ".")', "False", "a key within another is dropped from a sweep", "test_campaign.py"),
     mutant("heated-cells", HEATED, 'share * one["friction"][0]', 'share * one["friction"][-1]', "a cell's friction before slip is that of its end", "plain:test_heated_surface.py"),
     mutant("slip-law-strong", CHECKS, "if most > bears[weak]:", "if False:", "nobody is told that slip leaves the wall", "test_heated_slopes.py"),
     mutant("slip-law-peak", CHECKS, 'law.values.get("peak_friction", 0.0)', "0.0", "the peak of melt is not looked at", "test_heated_slopes.py"),

@@ -118,7 +118,7 @@ def test_the_release_from_water_follows_a_swept_critical_slip():
         ({"seed": [1, 2, 1]}, "seed: 1, 2, 1: a value stands twice"),
         (
             {"water.table.rate": [1, 2], "water.table": [{"rate": 3}]},
-            "water.table.rate and water.table: the values of the second take the place of those of the first; name water.table first",
+            "water.table.rate and water.table: the value of the second takes the place of that of the first; name water.table first",
         ),
         (
             {"seed": range(101), "gravity": [1.0 + k for k in range(100)]},

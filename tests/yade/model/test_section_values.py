@@ -314,3 +314,16 @@ def test_groups_that_a_file_has_not_are_made():
 )
 def test_a_value_of_a_slope_four_times_as_large_is_that_of_its_original(key, value, original):
     assert similar.original_value(key, value, 4.0) == pytest.approx(original, rel=1e-12)
+
+
+def test_a_key_before_one_that_holds_it_is_refused():
+    """Its value would be lost; the other way round both count."""
+    table = {"points": [[0.0, 0.0], [10.0, 5.0]]}
+    made = section.load("jiufengershan")
+    with pytest.raises(section.SectionError, match="water.table.points and water.table: .* name water.table first"):
+        made.with_values({"water.table.points": table["points"], "water.table": table})
+    with pytest.raises(section.SectionError, match="water.rate and water: the value of the second takes the place"):
+        made.with_values({("water", "rate"): 2.0, "water": {}})
+    law = {"law": "step", "critical_slip": 2.0, "friction": 0.0}
+    values = {"materials.dp.slip_weakening": law, "materials.dp.slip_weakening.critical_slip": 3.0}
+    assert made.with_values(values).critical_slips == {"DP": 3.0}

@@ -11,6 +11,7 @@ from __future__ import annotations
 import copy
 import dataclasses
 import difflib
+import itertools
 from collections.abc import Mapping
 from dataclasses import dataclass
 from functools import cache
@@ -20,7 +21,7 @@ from . import data as section_data
 from .folder import SCHEMA
 from .reader import SectionError, schema
 
-__all__ = ["Given", "NoSuchKey", "given", "keep", "keep_value", "put", "short", "with_values", "words"]
+__all__ = ["Given", "NoSuchKey", "given", "keep", "keep_value", "put", "replaced", "short", "with_values", "words"]
 
 # fields of a Section, and the keys of a file that say them
 _KEY = {
@@ -107,7 +108,7 @@ def with_values(section, values, source=None):
     ``source``: what messages begin with, the section's own where it is left out.
 
     Values of a similar section (:mod:`.similar`) are those of its own size. Raises NoSuchKey for a key that leads
-    nowhere, SectionError for what is no section.
+    nowhere, SectionError for what is no section, and for a key before one that holds it.
     """
     from . import loading, similar
 
@@ -116,6 +117,8 @@ def with_values(section, values, source=None):
         raise SectionError(
             f"{section.source}: values {checks.shown(values)}: give a dictionary {{key: value}}, as {{'materials.soil.friction': 0.4}}"
         )
+    if lost := replaced(values):
+        raise SectionError(f"{section.source}: {lost}")
     for key, value in values.items():
         put(data, key, value)
     made = loading.of(data, section.source if source is None else source)
@@ -124,6 +127,16 @@ def with_values(section, values, source=None):
     original, factor = section.like
     original = with_values(original, {key: similar.original_value(key, v, factor) for key, v in values.items()}, source)
     return keep(similar.with_disks_of(made, original, factor), given(made))
+
+
+def replaced(keys) -> str | None:
+    """What is wrong where of two ``keys``, in this order, the second holds the first, so that its value would take the
+    place of that of the first; None where none does."""
+    ways = [".".join(map(str, key)) if isinstance(key, (tuple, list)) else str(key) for key in keys]
+    for way, later in itertools.combinations(ways, 2):
+        if way.startswith(later + "."):
+            return f"{way} and {later}: the value of the second takes the place of that of the first; name {later} first, or give one of them"
+    return None
 
 
 def put(data, key, value):
