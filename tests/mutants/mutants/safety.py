@@ -13,6 +13,7 @@ BLOCK = "test_factor_of_safety.py::"
 
 MUTANTS = (
     # ---- rules of the search
+    mutant("safety-slow-table", PY + "studies/safety/asked.py", "if stands > longest:", "if False:", "a search waits for a table that does not come", "test_factor_of_safety.py::test_a_table_that_rises_without_end_is_refused_or_left_dry"),
     mutant("safety-halves", RULES, "min(grown, 0.5 * (s.stable + s.failed))", "min(grown, 0.5 * s.failed)", "a bracket is not halved",
            PLAIN + "test_the_bracket_holds_the_factor_and_is_as_narrow_as_asked"),
     mutant("safety-jump", RULES, "factor=min(grown, 0.5", "factor=max(grown, 0.5", "a trial loses more strength at once than a step", PLAIN + "test_no_trial_loses_more_strength_than_a_step"),

@@ -280,6 +280,7 @@ def test_a_value_grows_with_the_slope_as_its_unit_does():
         ("walls.no.material", "there is no 'no' in walls of the section; there are DP, FB, SS"),
         ("seed.more", "there is no 'more' in seed of the section; nothing can be varied there"),
         ("stages.dry.more", "there is no 'more' in stages.dry of the section; nothing can be varied there"),
+        ("disks.diameter.0", "there is no '0' in disks.diameter of the section; items without names"),
         ("walls.DP", "'DP' is an item of walls and no value; give one of its keys, walls.DP.material"),
         ("nothing.of.this", "there is no 'nothing' in the section; there are name, description"),
     ],

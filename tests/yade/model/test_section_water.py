@@ -341,6 +341,32 @@ def test_what_is_refused_is_named_with_its_value_and_a_remedy(case):
     assert all(part in said for part in parts) and "\n" not in said, said
 
 
+def late(kind, time):
+    """The small slope's data with water that comes to its last state at a ``time`` [s] after t0."""
+    if kind == "table":
+        made = read(SMALL, SCHEMA).data
+        made["water"] = {"plane": "DP", "table": {"points": [[0.0, 0.0], [time, 1.0]]}}
+        return made
+    states = {
+        "phreatic": {"lines": [LINES[0], LINES[1] | {"time": time}]},
+        "seepage": {"size": 4.0, "conductivity": 1e-5, "states": [{"time": 0.5}, {"time": time, "rain": 1e-6}]},
+    }
+    return data({"volume": "bulk", kind: states[kind]})
+
+
+@pytest.mark.parametrize("kind", ["table", "phreatic", "seepage"])
+def test_water_that_comes_after_the_run_is_refused(kind):
+    """The run ends at the latest stages.end.time after settling, and t0 is stages.dry after it."""
+    stages = section.load(str(SMALL)).stages
+    longest, more = stages.end.time - stages.dry, stages.dry / 2
+    assert more > 0 and section.of(late(kind, longest)).water
+    with pytest.raises(section.SectionError) as error:
+        section.of(late(kind, longest + more))
+    said, place = str(error.value), {"table": "table.points", "phreatic": "phreatic.lines", "seepage": "seepage.states"}
+    assert f"water.{place[kind]}" in said and f"{longest + more:g} s after t0 is no time of the run" in said
+    assert f"give stages.end.time of {int(np.ceil(stages.end.time + more))} s and more" in said and "\n" not in said
+
+
 def test_lines_without_a_common_part_are_refused():
     lines = [{"time": 0.0, "points": [[-40.0, 5.0], [-30.0, 5.0]]}, {"time": 1.0, "points": [[-20.0, 5.0], [0.0, 1.0]]}]
     made = section.of(data({"phreatic": {"lines": lines}, "outside": "dry"}))

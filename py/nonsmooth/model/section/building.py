@@ -97,6 +97,7 @@ def build(document, source: str) -> Section:
         water = _water(raw["water"], section, document) if kind == "table" else section_water.read(document)
         section = dataclasses.replace(section, water=water)
         section_water.check(section, document)
+        section_water.check_end(section, document)
     section = dataclasses.replace(section, walls=roles.assigned(section))
     section_checks.check_roles(section, document)
     if "water" in raw:

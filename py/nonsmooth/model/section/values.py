@@ -219,6 +219,8 @@ def _refuse(key, word, so_far, names):
         if near
         else f"there are {', '.join(map(str, names))}"
         if names
+        else "items without names have no key of their own: give the whole list"
+        if isinstance(names, list)
         else "nothing can be varied there"
     )
     raise NoSuchKey(f"{key}: there is no {word!r} {where}; {advice}")

@@ -8,6 +8,7 @@ grow from 0 to those of this state, between two states they are linear in time, 
 from __future__ import annotations
 
 import hashlib
+import math
 from dataclasses import dataclass
 from pathlib import Path
 
@@ -24,6 +25,7 @@ __all__ = [
     "KINDS",
     "PhreaticLines",
     "check",
+    "check_end",
     "complete",
     "kind_of",
     "mirror",
@@ -157,6 +159,28 @@ def check(section, document) -> None:
     """
     if isinstance(section.water, PhreaticLines):
         _check_lines(section, document)
+
+
+def check_end(section, document) -> None:
+    """Raises SectionError where a section's run ends before its water comes to its last state, or its table to its last
+    point.
+    """
+    raw, stages = document.data["water"], section.stages
+    if "table" in raw:
+        keys, entries = ("table", "points"), raw["table"].get("points", ())
+        last = entries[-1][0] if entries else 0.0
+    else:
+        kind = kind_of(document)
+        keys = (kind, "lines" if kind == "phreatic" else "states")
+        entries = raw[kind].get(keys[1], ())
+        last = entries[-1]["time"] if entries else 0.0
+    longest = max(stages.end.time - stages.dry, 0.0)
+    if last > longest:
+        document.refuse(
+            ("water", *keys, len(entries) - 1),
+            f"{last:g} s after t0 is no time of the run, which ends {longest:g} s after t0 at the latest",
+            f"give stages.end.time of {math.ceil(stages.dry + last)} s and more",
+        )
 
 
 def _phreatic(raw, common, document):

@@ -80,6 +80,15 @@ class Asked:
                 f"{section.source}: stages.water.hold {hold}: the table rises without end, and no slope rests under a "
                 "load that grows; give a height [m] there, or --table, 0 for a dry slope"
             )
+        if water is not None and water.rate > 0:
+            (begins, height), longest = water.table[-1], section.stages.end.time - section.stages.dry
+            stands = begins + max(hold - height, 0.0) / water.rate
+            if stands > longest:
+                raise SafetyError(
+                    f"{section.source}: stages.water.hold {hold:g}: at {water.rate:g} m/s the table stands there {stands:.3g} s "
+                    f"after t0, and the run ends {longest:g} s after t0; give --table {hold:g}, or stages.end.time of "
+                    f"{math.ceil(section.stages.dry + stands)} s and more"
+                )
 
     def _set(self, name, known, given):
         remedy = f"give some of {', '.join(known)}, each once"

@@ -15,6 +15,7 @@ from ... import course, records
 from ...course.triggers import shaking
 from ...measure import centroid
 from ...model import scales
+from ...model.ground_motion.motion import COMPONENTS
 
 __all__ = ["MEANINGS", "TITLES", "Verdict", "of"]
 
@@ -114,7 +115,7 @@ def _shaken(series, section, state, moved, start, rest):
     return Verdict(
         SHAKEN,
         f"the slope failed by shaking{_load(series, section, None, moved)}; it began to move at {moved:.1f} s, {since:.1f} s after the record began, whose largest acceleration is "
-        f"{motion.peak_acceleration():.3g} m/s²{rest}{also}",
+        f"{max(map(motion.peak_acceleration, COMPONENTS)):.3g} m/s²{rest}{also}",
     )
 
 

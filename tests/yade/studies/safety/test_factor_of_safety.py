@@ -384,6 +384,11 @@ def test_a_table_that_rises_without_end_is_refused_or_left_dry():
     assert wet.water.height(1e3) == 4.0 and note is None
     held = shipped.with_values({"stages.water.hold": 3.0})
     assert safety_asked.standing(held) == (held, None) and safety_asked.Asked(held)
+    # a table that does not stand there within the run
+    longest = shipped.stages.end.time - shipped.stages.dry
+    with pytest.raises(safety_asked.SafetyError, match=f"stands there {longest + 1:.3g} s after t0, and the run ends"):
+        safety_asked.Asked(held.with_values({"water.table": {"rate": 3.0 / (longest + 1)}}))
+    assert safety_asked.Asked(held.with_values({"water.table": {"rate": 3.0 / (longest - 1)}}))
     with pytest.raises(safety_asked.SafetyError, match="has no water"):
         safety_asked.standing(sliding_block.block(), 2.0)
     with pytest.raises(safety_asked.SafetyError, match="height of the water table"):

@@ -150,6 +150,10 @@ def test_a_failure_while_it_shakes_is_of_the_shaking_dry_or_wet():
     assert wet.kind == dry.kind == "failed by shaking" and wet.before is None
     assert ", with the water table at 10.25 m and 110 disks wet; it began to move at 30.5 s, 19.5 s after" in wet.says
     assert ", without water; it began" in dry.says and "largest acceleration is 4.9 m/s²" in dry.says
+    motion = SHAKEN.shaking.motion
+    up = dataclasses.replace(motion, horizontal=0 * motion.horizontal, vertical=2 * motion.horizontal)
+    lifted = of(dataclasses.replace(SHAKEN, shaking=dataclasses.replace(SHAKEN.shaking, motion=up)))
+    assert "largest acceleration is 9.8 m/s²" in lifted.says  # of either component
     pushed = of(SHAKEN, outside=2e6)
     assert "2e+06 J/m before, so it may not have been the shaking alone" in pushed.says
 
