@@ -80,20 +80,21 @@ def halves(surface, begin, shots, slip) -> tuple[float, float] | None:
     if not len(on):
         return None
     middle = (along[on].min() + along[on].max()) / 2
-    parts = [
-        surface._replace(above=above, below=below)
-        for above, below in (
-            (surface.above[along[surface.above] < middle], surface.below[along[surface.below] < middle]),
-            (surface.above[along[surface.above] >= middle], surface.below[along[surface.below] >= middle]),
-        )
-    ]
-    if not all(len(part.above) for part in parts):
+    upper = surface._replace(
+        name=f"{surface.name}, upper half",
+        above=surface.above[along[surface.above] < middle],
+        below=surface.below[along[surface.below] < middle],
+    )
+    lower = surface._replace(
+        name=f"{surface.name}, lower half",
+        above=np.setdiff1d(surface.above, upper.above),
+        below=np.setdiff1d(surface.below, upper.below),
+    )
+    if not len(upper.above) or not len(lower.above):
         return None
     before = np.zeros(3)
     for shot in shots:
-        now = np.array(
-            [displacements([one], begin, shot.x, shot.y, shot.number)[one.name] for one in (surface, *parts)]
-        )
+        now = np.array([*displacements((surface, upper, lower), begin, shot.x, shot.y, shot.number).values()])
         if now[0] >= slip > before[0]:
             share = (slip - before[0]) / (now[0] - before[0])
             return tuple((before + share * (now - before))[1:].tolist())

@@ -44,7 +44,7 @@ MUTANTS = (
            "test_paper_slopes.py::test_the_table_that_stops_at_t1_runs_after_the_shipped_slopes"),
     mutant("control-release", PY + "studies/paper/paper_slopes.py", "{D_C: BEYOND, RELEASE: 5.0}", "{D_C: BEYOND}", "without weakening there is no release either",
            "test_paper_slopes.py::test_a_variant_changes_what_it_says_and_nothing_else"),
-    mutant("slip-halves", PY + "measure/surface_slip.py", "(surface.above[along[surface.above] < middle],", "(surface.above[along[surface.above] > middle],", "the lower half of a slip surface is the upper one",
+    mutant("slip-halves", PY + "measure/surface_slip.py", "above=surface.above[along[surface.above] < middle]", "above=surface.above[along[surface.above] > middle]", "the lower half of a slip surface is the upper one",
            "plain:test_surface_slip.py::test_the_half_that_is_ahead_is_so_when_the_mean_comes_to_the_slip_asked_for"),
     mutant("slip-crossing", PY + "measure/surface_slip.py", "share = (slip - before[0]) / (now[0] - before[0])", "share = 1.0", "halves are those of the snapshot after the slip",
            "plain:test_surface_slip.py::test_the_half_that_is_ahead_is_so_when_the_mean_comes_to_the_slip_asked_for"),

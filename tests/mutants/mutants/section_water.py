@@ -13,7 +13,7 @@ REFUSED = KEYS + "::test_what_is_refused_is_named_with_its_value_and_a_remedy"
 MUTANTS = (
     # ---- keys
     mutant("water-late", LINES, "if last > longest:", "if False:", "water that comes after the run is taken", KEYS + "::test_water_that_comes_after_the_run_is_refused"),
-    mutant("water-late-end", LINES, "longest = max(stages.end.time - stages.dry, 0.0)", "longest = stages.end.time", "states may come in the time before t0 too", KEYS + "::test_water_that_comes_after_the_run_is_refused"),
+    mutant("water-late-end", MODEL + "parts.py", "return max(self.end.time - self.dry, 0.0)", "return self.end.time", "states may come in the time before t0 too", KEYS + "::test_water_that_comes_after_the_run_is_refused"),
     mutant("water-kinds", LINES, "if len(given) > 1:", "if False:", "two kinds of water are taken for one", REFUSED),
     mutant("water-held", LINES, 'if given[0] != "table" and "hold"', 'if False and "hold"', "what cannot be held is said to be", REFUSED),
     mutant("water-times", BASE, 'if after["time"] <= before["time"]:', 'if after["time"] < before["time"]:', "two states have one time", REFUSED),

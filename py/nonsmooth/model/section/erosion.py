@@ -152,9 +152,9 @@ def _window(raw, keys, section, document):
     if opening > end - begin:
         opens = f"opens in {opening:g} s, and there are {end - begin:g} s from its begin to its end"
         refuse("opening", opens, "give a shorter `time`, or a later `end`")
-    longest = section.stages.end.time - section.stages.dry
+    longest = section.stages.longest
     if begin >= longest:
-        late = f"{begin:g} s after t0 is no time of the run, which ends {max(longest, 0.0):g} s after t0 at the latest"
+        late = f"{begin:g} s after t0 is no time of the run, which ends {longest:g} s after t0 at the latest"
         refuse("begin", late, "begin earlier, or raise stages.end.time")
     for k, name in enumerate(raw.get("layers", ())):
         if name not in [layer.name for layer in section.layers] or name in raw["layers"][:k]:

@@ -300,6 +300,11 @@ class Stages:
     water_hold: str | float
     end: End
 
+    @property
+    def longest(self) -> float:
+        """How long after t0 a run ends at the latest [s]."""
+        return max(self.end.time - self.dry, 0.0)
+
 
 @dataclass(frozen=True)
 class Numerics:

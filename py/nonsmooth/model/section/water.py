@@ -174,7 +174,7 @@ def check_end(section, document) -> None:
         keys = (kind, "lines" if kind == "phreatic" else "states")
         entries = raw[kind].get(keys[1], ())
         last = entries[-1]["time"] if entries else 0.0
-    longest = max(stages.end.time - stages.dry, 0.0)
+    longest = stages.longest
     if last > longest:
         document.refuse(
             ("water", *keys, len(entries) - 1),

@@ -81,7 +81,7 @@ class Asked:
                 "load that grows; give a height [m] there, or --table, 0 for a dry slope"
             )
         if water is not None and water.rate > 0:
-            (begins, height), longest = water.table[-1], section.stages.end.time - section.stages.dry
+            (begins, height), longest = water.table[-1], section.stages.longest
             stands = begins + max(hold - height, 0.0) / water.rate
             if stands > longest:
                 raise SafetyError(
