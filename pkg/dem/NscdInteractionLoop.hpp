@@ -44,6 +44,8 @@ private:
 	void takeProposed(nscd::Resident& resident, const Ours& ours, int threads);
 	bool prepare(nscd::Resident& resident, const nscd::Resident::Pair& pair, const Ours& ours);
 	void visitOthers(nscd::Resident& resident, const std::vector<int>& others, const Ours& ours, int threads);
+	bool visit(const shared_ptr<Interaction>& interaction);
+	void visitInSpace(const nscd::Resident& resident, int threads);
 
 	void keepFunctors();
 

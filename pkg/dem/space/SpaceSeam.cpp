@@ -6,8 +6,12 @@
 #include "../Gravity.hpp"
 #include "../Refusal.hpp"
 #include "../SceneCheck.hpp"
+#include "../seam/Prefetch.hpp"
+#include <algorithm>
 #include <contact/space/bond.hpp>
 #include <core/Scene.hpp>
+#include <neighbours/bucket_sort.hpp>
+#include <neighbours/thread_part.hpp>
 #include <pkg/common/Sphere.hpp>
 #include <pkg/dem/ScGeom.hpp>
 
@@ -21,16 +25,24 @@ namespace {
 		fail("body #" + std::to_string(body.getId()) + " " + why + ": " + remedy);
 	}
 
+	/// The shape of a sphere, null of any other; its own class is recognised without a search.
+	const Sphere* sphereOf(const Shape* shape)
+	{
+		if (shape && typeid(*shape) == typeid(Sphere)) return static_cast<const Sphere*>(shape);
+		return dynamic_cast<const Sphere*>(shape);
+	}
+
+	/// The cohesive physics of an interaction, null if it has another; in space most are of one class.
+	NscdPhys* cohesiveOf(IPhys& phys)
+	{
+		return typeid(phys) == typeid(NscdSpacePhys) ? static_cast<NscdSpacePhys*>(&phys) : physOf(phys);
+	}
+
 	/// Inverse of a number that resists, 0 in a blocked direction.
 	Real inverseIn(unsigned blocked, unsigned axis, Real value) { return blocked & axis ? 0 : 1 / value; }
 
 	/// What of an error of a bond's length, either way, goes beyond the slack.
 	Real beyondSlack(Real error, Real slack) { return error - std::max(-slack, std::min(slack, error)); }
-
-	Real kineticOf(Real mass, Real inertia, const space::Twist& t)
-	{
-		return 0.5 * (mass * dot(t.v, t.v) + inertia * dot(t.w, t.w));
-	}
 }
 
 bool isInSpace(const Scene& scene, const std::vector<BodyReading>& bodies)
@@ -51,10 +63,13 @@ bool isInSpace(const Scene& scene, const std::vector<BodyReading>& bodies)
 		const Vector3r g     = gravityOf(scene);
 		return empty && g[2] != 0 && std::isfinite(g[2]);
 	}
-	return std::none_of(scene.bodies->begin(), scene.bodies->end(), [](const shared_ptr<Body>& b) {
-		const Shape* shape = b ? b->shape.get() : nullptr;
+	const auto isOfThePlane = [&](const BodyReading& b) {
+		if (!b.present || b.radius > 0) return false;
+		const auto&  body  = (*scene.bodies)[&b - bodies.data()];
+		const Shape* shape = body ? body->shape.get() : nullptr;
 		return dynamic_cast<const Segment*>(shape) || dynamic_cast<const Arc*>(shape);
-	});
+	};
+	return std::none_of(bodies.begin(), bodies.end(), isOfThePlane);
 }
 
 void SpaceSeam::gather(Scene& scene, const Vector3r& gravity, const Relaxation& how, int threadCount)
@@ -63,12 +78,19 @@ void SpaceSeam::gather(Scene& scene, const Vector3r& gravity, const Relaxation& 
 	threads    = threadCount;
 	gatherBodies(scene, gravity);
 	findContacts(scene);
-	problem.contacts.assign(links.size(), {});
-	problem.impulses.resize(links.size());
+	const long count = (long)links.size();
+	problem.contacts.resize(count);
+	problem.impulses.resize(count);
+	warmStart.resize(count);
 #pragma omp parallel for schedule(static) num_threads(threads)
-	for (long k = 0; k < (long)links.size(); ++k)
+	for (long k = 0; k < count; ++k) {
+		if (k + (long)soon < count) {
+			fetch<partOfGeometry>(links[k + soon].interaction->geom.get());
+			fetch<sizeof(NscdSpacePhys)>(links[k + soon].phys);
+		}
 		gatherContact(k);
-	warmStart = problem.impulses;
+		warmStart[k] = problem.impulses[k];
+	}
 }
 
 void SpaceSeam::gatherBodies(Scene& scene, const Vector3r& gravity)
@@ -78,21 +100,30 @@ void SpaceSeam::gatherBodies(Scene& scene, const Vector3r& gravity)
 	scene.forces.addMaxId(Body::id_t(size));
 	scene.forces.synced = false;
 	scene.forces.sync();
-	bodies.assign(size, {});
-	problem.inverseMass.assign(size, {});
-	problem.freeVelocity.assign(size, {});
-	problem.positions.assign(size, {});
+	bodies.resize(size);
+	problem.inverseMass.resize(size);
+	problem.freeVelocity.resize(size);
+	problem.positions.resize(size);
 	const Real h   = relaxation.step;
 	int        bad = -1; // refused after the loop, which must not throw
 #pragma omp parallel for schedule(static) num_threads(threads) reduction(max : bad)
 	for (long id = 0; id < (long)size; ++id) {
-		const auto& b = all[id];
+		if (id + (long)later < (long)size) fetch<sizeof(Body)>(all[id + later].get());
+		if (id + (long)soon < (long)size && all[id + soon]) {
+			fetch<sizeof(State)>(all[id + soon]->state.get());
+			fetch<sizeof(Sphere)>(all[id + soon]->shape.get());
+		}
+		const auto& b         = all[id];
+		BodyState&  own       = bodies[id];
+		auto&       m         = problem.inverseMass[id];
+		auto&       v         = problem.freeVelocity[id];
+		own                   = {};
+		m                     = {};
+		v                     = {};
+		problem.positions[id] = {};
 		if (!b || !b->state) continue;
 		const State& s        = *b->state;
-		BodyState&   own      = bodies[id];
-		auto&        m        = problem.inverseMass[id];
-		auto&        v        = problem.freeVelocity[id];
-		const auto*  ball     = dynamic_cast<const Sphere*>(b->shape.get());
+		const auto*  ball     = sphereOf(b->shape.get());
 		own.present           = true;
 		own.mass              = s.mass;
 		own.inertia           = s.inertia[0];
@@ -151,48 +182,89 @@ void SpaceSeam::gatherBodies(Scene& scene, const Vector3r& gravity)
 	        "only spheres turn: set state.blockedDOFs = 'XYZ' for a plate that moves without turning, or block all");
 }
 
+/// What becomes of an interaction; Refused: the step cannot be made with it, see refuse().
+SpaceSeam::Part SpaceSeam::partOf(const Interaction& I) const
+{
+	if (!I.isReal() || !I.isActive) return Part::None;
+	const int id1 = I.getId1(), id2 = I.getId2();
+	if (!bodies[id1].present || !bodies[id2].present) return Part::None;
+	NscdPhys* phys = cohesiveOf(*I.phys);
+	if (!phys) return Part::Refused;
+	const bool inSpace = typeid(*phys) == typeid(NscdSpacePhys);
+	if (problem.inverseMass[id1].isFixed() && problem.inverseMass[id2].isFixed() && !inSpace
+	    && typeid(*phys) == typeid(NscdPhys))
+		return Part::None; // of two bodies that are held, as in no plane and no space
+	if (!inSpace || !std::isfinite(static_cast<const ScGeom&>(*I.geom).normal.sum())) return Part::Refused;
+	phys->hearReset();
+	return phys->senseless().first || phys->unheard() || !(phys->length > 0) ? Part::Refused : Part::Solved;
+}
+
+/// Says why an interaction cannot be taken.
+void SpaceSeam::refuse(const Scene& scene, Interaction& I) const
+{
+	const string pair = "interaction #" + std::to_string(I.getId1()) + "+#" + std::to_string(I.getId2());
+	const auto*  phys = cohesiveOf(*I.phys);
+	if (!phys)
+		fail(pair + " has a " + I.phys->getClassName()
+		     + ": give both bodies an NscdMat and use Ip2_NscdMat_NscdMat_NscdPhys");
+	if (typeid(*phys) != typeid(NscdSpacePhys))
+		fail(pair + " has a " + phys->getClassName()
+		     + ", and bodies move in space, where contacts have an NscdSpacePhys: walls that weaken by slip are for disks in the plane"
+		       " (state.blockedDOFs = 'zXY'), and contacts that were made while all bodies were in the plane must be made anew (O.interactions.clear())");
+	if (!std::isfinite(static_cast<const ScGeom&>(*I.geom).normal.sum()))
+		fail(pair
+		     + " has no normal: the centres are at one place, or a position is not finite: move one of them");
+	Reading     reading;
+	BondReading bond;
+	BondStrain  rest;
+	read(look(I), reading, bond, rest);
+	reading.nz = 0; // nothing is wrong with that here
+	refuseContact(scene, reading);
+}
+
 /// All real interactions of rigid contacts, in the order of ids.
 void SpaceSeam::findContacts(Scene& scene)
 {
-	links.clear();
-	for (const auto& I : *scene.interactions) {
-		if (!I->isReal() || !I->isActive) continue;
-		const int id1 = I->getId1(), id2 = I->getId2();
-		if (!bodies[id1].present || !bodies[id2].present) continue;
-		const string pair = "interaction #" + std::to_string(id1) + "+#" + std::to_string(id2);
-		auto*        phys = physOf(*I->phys);
-		if (!phys)
-			fail(pair + " has a " + I->phys->getClassName()
-			     + ": give both bodies an NscdMat and use Ip2_NscdMat_NscdMat_NscdPhys");
-		if (problem.inverseMass[id1].isFixed() && problem.inverseMass[id2].isFixed()
-		    && typeid(*phys) == typeid(NscdPhys))
-			continue; // of two bodies that are held, as in no plane and no space
-		if (typeid(*phys) != typeid(NscdSpacePhys))
-			fail(pair + " has a " + phys->getClassName()
-			     + ", and bodies move in space, where contacts have an NscdSpacePhys: walls that weaken by slip are for disks in the plane"
-			       " (state.blockedDOFs = 'zXY'), and contacts that were made while all bodies were in the plane must be made anew (O.interactions.clear())");
-		const auto& geom = static_cast<const ScGeom&>(*I->geom);
-		if (!std::isfinite(geom.normal.sum()))
-			fail(pair
-			     + " has no normal: the centres are at one place, or a position is not finite: move one of them");
-		phys->hearReset();
-		if (phys->senseless().first || phys->unheard() || !(phys->length > 0)) {
-			Reading     reading;
-			BondReading bond;
-			BondStrain  rest;
-			read(look(*I), reading, bond, rest);
-			reading.nz = 0; // nothing is wrong with that here
-			refuseContact(scene, reading);
+	auto&      list  = *scene.interactions;
+	const long count = (long)list.size();
+	long       bad   = count; // the first one that cannot be taken, refused after the loop, which must not throw
+	found.resize(threads);
+	for (auto& part : found)
+		part.links.clear();
+#pragma omp parallel num_threads(threads) reduction(min : bad)
+	{
+		auto& links = nonsmooth::neighbours::partOfThread(found).links;
+#pragma omp for schedule(static)
+		for (long k = 0; k < count; ++k) {
+			if (k + (long)later < count) fetch<sizeof(Interaction)>(list[k + later].get());
+			if (k + (long)soon < count) {
+				fetch<partOfGeometry>(list[k + soon]->geom.get());
+				fetch<partOfPhysics>(list[k + soon]->phys.get());
+			}
+			Interaction& I    = *list[k];
+			const Part   part = partOf(I);
+			if (part == Part::Refused) bad = std::min(bad, k);
+			if (part != Part::Solved) continue;
+			const int  id1 = I.getId1(), id2 = I.getId2();
+			const bool both    = bodies[id1].radius > 0 && bodies[id2].radius > 0;
+			const bool swapped = both ? id1 > id2 : bodies[id1].radius > 0;
+			const Real gap     = -static_cast<const ScGeom&>(*I.geom).penetrationDepth;
+			auto*      phys    = static_cast<NscdPhys*>(I.phys.get());
+			links.push_back({ &I, phys, swapped ? id2 : id1, swapped ? id1 : id2, swapped, gap });
 		}
-		const bool both    = bodies[id1].radius > 0 && bodies[id2].radius > 0;
-		const bool swapped = both ? id1 > id2 : bodies[id1].radius > 0;
-		links.push_back(
-		        { I.get(), phys, swapped ? id2 : id1, swapped ? id1 : id2, swapped, -geom.penetrationDepth });
 	}
-	std::sort(links.begin(), links.end(), [](const Link& a, const Link& b) {
-		return std::make_pair(std::min(a.i, a.j), std::max(a.i, a.j))
-		        < std::make_pair(std::min(b.i, b.j), std::max(b.i, b.j));
-	});
+	if (bad < count) refuse(scene, *list[bad]);
+	const auto each = [this](auto take) {
+		for (const auto& part : found)
+			for (const Link& link : part.links)
+				take(std::min(link.i, link.j), link);
+	};
+	nonsmooth::neighbours::sortIntoBuckets(bodies.size(), each, linksBefore, links);
+#pragma omp parallel for schedule(static) num_threads(threads)
+	for (long id = 0; id < (long)bodies.size(); ++id)
+		std::sort(
+		        links.begin() + linksBefore[id], links.begin() + linksBefore[id + 1],
+		        [](const Link& a, const Link& b) { return std::max(a.i, a.j) < std::max(b.i, b.j); });
 }
 
 void SpaceSeam::gatherContact(size_t k)
@@ -203,6 +275,7 @@ void SpaceSeam::gatherContact(size_t k)
 	const Real  h    = relaxation.step;
 	auto&       c    = problem.contacts[k];
 	const Real  sign = link.swapped ? -1 : 1;
+	c                = {};
 	c.i              = link.i;
 	c.j              = link.j;
 	c.n              = sign * ours(geom.normal);
@@ -260,7 +333,7 @@ void SpaceSeam::correct(const space::SolverSettings& settings, space::Workspace&
 	correction.displacements.clear();
 	if (sweeps == 0 || relaxation.rate == 0) return;
 	const Real h = relaxation.step, most = h * relaxation.largestSpeed;
-	errors.assign(links.size(), {});
+	errors.resize(links.size());
 	bool any = false;
 #pragma omp parallel for schedule(static) num_threads(threads) reduction(|| : any)
 	for (long k = 0; k < (long)links.size(); ++k) {
@@ -268,7 +341,8 @@ void SpaceSeam::correct(const space::SolverSettings& settings, space::Workspace&
 		const Real  slack = relaxation.slack * c.length, gap = links[k].gap;
 		const Real  end = gap + h * relativeVelocity(c, problem.velocities[c.i], problem.velocities[c.j]).n;
 		// of what was wrong before the step the share 1 − κ may stay; what the step adds may not
-		auto&      e     = errors[k];
+		auto& e          = errors[k];
+		e                = {};
 		const auto stays = [this](Real wrong) { return (1 - relaxation.rate) * wrong; };
 		e.impulse        = links[k].phys->correction;
 		e.held           = isHeld(k);
@@ -302,137 +376,6 @@ bool SpaceSeam::isHeld(size_t k) const
 	const auto& c = problem.contacts[k];
 	const auto  u = relativeVelocity(c, problem.velocities[c.i], problem.velocities[c.j]);
 	return !space::yieldsInTension(c, rowsOf(c, problem.impulses[k]), u.n);
-}
-
-StepSums SpaceSeam::scatter(Scene& scene, const Vector3r& gravity)
-{
-	StepSums sums;
-	broken.clear();
-	reaction.assign(bodies.size(), {});
-	for (size_t k = 0; k < links.size(); ++k)
-		scatterContact(k, sums);
-	const Real h = relaxation.step;
-	for (size_t id = 0; id < bodies.size(); ++id) {
-		if (!bodies[id].present) continue;
-		const auto& r = reaction[id];
-		if (!isZero(r.v) || !isZero(r.w)) {
-			scene.forces.addForceUnsynced(id, theirs(1 / h * r.v)); // into the sums, see gatherBodies
-			scene.forces.addTorqueUnsynced(id, theirs(1 / h * r.w));
-		}
-		sumBody(id, gravity, sums);
-		if (correction.displacements.empty()) continue;
-		const auto& d = correction.displacements[id];
-		State&      s = *(*scene.bodies)[id]->state;
-		if (isZero(d.v) && isZero(d.w)) continue;
-		s.pos += theirs(d.v);
-	}
-	return sums;
-}
-
-void SpaceSeam::scatterContact(size_t k, StepSums& sums)
-{
-	const Link& link = links[k];
-	const auto& c    = problem.contacts[k];
-	const auto& p    = problem.impulses[k];
-	auto&       phys = static_cast<NscdSpacePhys&>(*link.phys);
-	const Real  h = relaxation.step, sign = link.swapped ? -1 : 1;
-	const auto  rows    = rowsOf(c, p);
-	phys.normal         = rows.n / h;
-	phys.normalForce    = theirs(sign / h * rows.n * c.n);
-	phys.shearForce     = theirs(sign / h * rows.t);
-	phys.tangential     = std::sqrt(dot(rows.t, rows.t)) / h;
-	phys.rollingTorque  = theirs(sign / h * rows.r);
-	phys.torque         = std::sqrt(dot(rows.r, rows.r)) / h;
-	phys.twistingTorque = rows.s / h;
-	phys.correction     = correction.displacements.empty() ? 0 : correction.impulses[k];
-	phys.noteForces();
-	phys.touched = false;
-
-	auto&               ri   = reaction[c.i];
-	auto&               rj   = reaction[c.j];
-	const space::Vector turn = cross(c.n, p.f);
-	ri.v                     = ri.v - p.f;
-	ri.w                     = ri.w - (c.leverI * turn + cross(c.asideI, p.f) + p.m);
-	rj.v                     = rj.v + p.f;
-	rj.w                     = rj.w + (c.leverJ * turn + cross(c.asideJ, p.f) + p.m);
-
-	// work of the impulse over the step, exact for constant mass: P·(U⁻ + U⁺)/2
-	const auto u0         = relativeVelocity(c, bodies[c.i].before, bodies[c.j].before),
-	           u1         = relativeVelocity(c, problem.velocities[c.i], problem.velocities[c.j]);
-	const Real normalWork = 0.5 * rows.n * (u0.n + u1.n), shearWork = 0.5 * dot(rows.t, u0.t + u1.t);
-	const bool held = phys.bonded && !space::yieldsInTension(c, rows, u1.n) && !phys.yielded;
-	// tension in a bond that does not open loses nothing
-	if (rows.n < 0 && held) sums.heldWork += normalWork;
-	else
-		(rows.n < 0 ? sums.debonding : sums.impact) -= normalWork;
-	if (phys.brokenMode != NscdPhys::None && phys.breaks) {
-		++sums.broken[phys.brokenMode];
-		broken.emplace_back(phys.brokenMode, link.interaction);
-		phys.breaks = false;
-	}
-	phys.yielded = phys.slid = phys.rolled = false;
-	if (phys.bonded) {
-		const auto y = space::yieldOfStep(c, rows, u1, h);
-		phys.yielded = space::yieldsInTension(c, rows, u1.n);
-		phys.slid    = y.shear > 0;
-		phys.rolled  = y.rolling > 0;
-		phys.yieldPath += Vector3r(y.tension, y.shear, y.rolling);
-		phys.twistingPath += y.twisting;
-	}
-	sums.sliding -= shearWork;
-	sums.rolling -= 0.5 * dot(p.m, u0.w + u1.w);
-	if (bodies[c.i].radius < 0 && shearWork != 0) sums.slidingOnWalls.emplace_back(c.i, -shearWork);
-	if (phys.restitution > 0 && !phys.bonded && c.biasN > 0 && rows.n > 0)
-		sums.missed -= phys.restitution * phys.restitution * std::min(Real(0), normalWork);
-	const bool placed  = problem.inverseMass[c.i].isFixed() && problem.inverseMass[c.j].isFixed();
-	const Real overlap = placed ? 0 : std::max(Real(0), -link.gap) / c.length;
-	sums.overlap += overlap;
-	if (overlap > sums.worstOverlap) {
-		sums.worstOverlap = overlap;
-		sums.worstIds[0]  = std::min(c.i, c.j);
-		sums.worstIds[1]  = std::max(c.i, c.j);
-	}
-	sums.touching += rows.n != 0 || link.gap <= 0;
-	sums.bonds += phys.bonded;
-}
-
-void SpaceSeam::sumBody(size_t id, const Vector3r& gravity, StepSums& sums) const
-{
-	const BodyState& b  = bodies[id];
-	const auto&      m  = problem.inverseMass[id];
-	const auto &     v0 = b.before, &v1 = problem.velocities[id], &r = reaction[id], &f = b.external;
-	const Real       h    = relaxation.step;
-	const auto       mean = space::Twist { 0.5 * (v0.v + v1.v), 0.5 * (v0.w + v1.w) };
-	const auto given = [](Real inverseMass, Real force, Real speed) { return inverseMass > 0 ? 0 : force * speed; };
-	const auto free  = [](Real inverseMass, Real force, Real speed) { return inverseMass > 0 ? force * speed : 0; };
-	// where the motion is given, the work that the contacts do on it goes outside; elsewhere other engines' forces work
-	sums.wallWork -= given(m.x, r.v.x, mean.v.x) + given(m.y, r.v.y, mean.v.y) + given(m.z, r.v.z, mean.v.z)
-	        + given(m.inertia.xx, r.w.x, mean.w.x) + given(m.inertia.yy, r.w.y, mean.w.y)
-	        + given(m.inertia.zz, r.w.z, mean.w.z);
-	if (m.isFixed()) return;
-	sums.wallWork -= h * b.mass
-	        * (given(m.x, gravity[0], v1.v.x) + given(m.y, gravity[1], v1.v.y) + given(m.z, gravity[2], v1.v.z));
-	sums.external += h
-	        * (free(m.x, f.v.x, mean.v.x) + free(m.y, f.v.y, mean.v.y) + free(m.z, f.v.z, mean.v.z)
-	           + free(m.inertia.xx, f.w.x, mean.w.x) + free(m.inertia.yy, f.w.y, mean.w.y)
-	           + free(m.inertia.zz, f.w.z, mean.w.z));
-	const Vector3r at        = theirs(problem.positions[id]);
-	const Real     potential = -b.mass * gravity.dot(at), moving = kineticOf(b.mass, b.inertia, v0);
-	sums.kinetic += moving;
-	sums.potential += potential;
-	sums.size += moving + std::abs(potential);
-	const bool          moved = !correction.displacements.empty();
-	const space::Vector d     = moved ? correction.displacements[id].v : space::Vector {};
-	sums.kineticLeft += kineticOf(b.mass, b.inertia, v1);
-	sums.potentialLeft -= b.mass * gravity.dot(Vector3r(at + theirs(d) + h * theirs(v1.v)));
-	sums.correction -= b.mass * gravity.dot(theirs(d));
-	sums.mass += b.mass;
-	sums.centre += b.mass * at;
-	sums.momentum += b.mass * theirs(v1.v);
-	const Real speed = std::sqrt(dot(v1.v, v1.v));
-	sums.speed += speed;
-	sums.largestSpeed = std::max(sums.largestSpeed, speed);
-	++sums.bodies;
 }
 
 } // namespace yade::nscd

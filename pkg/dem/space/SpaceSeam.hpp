@@ -50,17 +50,38 @@ private:
 		bool         swapped; // i is the interaction's second body
 		Real         gap;
 	};
-	void gatherBodies(Scene& scene, const Vector3r& gravity);
-	void findContacts(Scene& scene);
-	void gatherContact(size_t k);
-	bool isHeld(size_t contact) const;
-	void scatterContact(size_t k, StepSums& sums);
-	void sumBody(size_t id, const Vector3r& gravity, StepSums& sums) const;
+	/// Links that one thread has found.
+	struct alignas(64) Found {
+		std::vector<Link> links;
+	};
+	/// What a part of the contacts, or of the bodies, adds up to.
+	struct Sums : StepSums {
+		std::vector<std::pair<int, const Interaction*>> breaks; // (mode, interaction)
+	};
+	/// What becomes of an interaction in a step.
+	enum class Part { None, Solved, Refused };
+
+	/// Contacts or bodies that are summed up together; fixed, so that sums do not depend on the number of threads.
+	static constexpr size_t sumChunk = 1024;
+	static size_t           chunksOf(size_t count) { return (count + sumChunk - 1) / sumChunk; }
+
+	void              gatherBodies(Scene& scene, const Vector3r& gravity);
+	Part              partOf(const Interaction& interaction) const;
+	[[noreturn]] void refuse(const Scene& scene, Interaction& interaction) const;
+	void              findContacts(Scene& scene);
+	void              gatherContact(size_t k);
+	bool              isHeld(size_t contact) const;
+	void              sumReactions();
+	void              scatterContact(size_t k, Sums& sums) const;
+	void              scatterBody(Scene& scene, size_t id);
+	void              sumBody(size_t id, const Vector3r& gravity, StepSums& sums) const;
 
 	Relaxation                                            relaxation {};
 	int                                                   threads = 1;
 	std::vector<BodyState>                                bodies; // by id
 	std::vector<Link>                                     links; // by contact of the problem
+	std::vector<Found>                                    found; // by thread, in no order
+	std::vector<int>                                      linksBefore; // of each body as the one of lower id
 	std::vector<nonsmooth::contact::space::PositionError> errors;
 	nonsmooth::contact::space::PositionCorrection         correction;
 	std::vector<nonsmooth::contact::space::Twist>         reaction; // of contacts on bodies: impulses [N s, N m s]
