@@ -133,7 +133,7 @@ void NscdInteractionLoop::action()
 	if (!resident.order.empty() && (now.spheres != ours.spheres || now.law != ours.law)) resident.show();
 	ours = now;
 	if (nscd::isInSpace(*scene, resident.bodies)) {
-		resident.show();
+		if (resident.hasContacts()) resident.show();
 		resident.potentialOf = nscd::Resident::never;
 		visitInSpace(resident, threads);
 		turn.end();

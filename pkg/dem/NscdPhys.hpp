@@ -3,6 +3,7 @@
 
 #include "NscdMat.hpp"
 #include "PythonMade.hpp"
+#include "Refusal.hpp"
 #include <contact/plane/thresholds.hpp>
 #include <core/Dispatching.hpp>
 #include <optional>
@@ -48,6 +49,16 @@ public:
 	bool isBondWanted() const { return bonded && axis == Vector3r::Zero(); }
 	/// An attribute whose number makes no sense in the law, and the number; null where all do.
 	virtual std::pair<const char*, Real> senseless() const;
+	/// Whether there is none as far as a glance at their sum and the least of them tells, which is enough for almost all contacts.
+	bool makesSenseAtOnce() const
+	{
+		const Real least = std::min({ residualTensileForce, residualFriction, residualRollingArm, tensileForce,
+			                      friction, rollingArm, restitution, creationDistance }),
+		           sum   = std::abs(normal) + std::abs(tangential) + std::abs(torque) + residualTensileForce
+		        + residualFriction + residualRollingArm + tensileForce + friction + rollingArm + creationDistance;
+		return least >= 0 && restitution <= 1 && nscd::isNumber(sum)
+		        && (!bonded || (ellipseNormal > 0 && ellipseTangential > 0));
+	}
 	/// Whether somebody has written into an attribute of FrictPhys since it was last set here: those of YADE's own classes leave no mark.
 	bool isWritten() const { return isFrictionWritten() || isReset() || unheard(); }
 	/// The attribute of YADE's own classes that was written to and that a rigid contact cannot hear; null where there is none.

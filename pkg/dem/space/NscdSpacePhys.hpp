@@ -15,6 +15,12 @@ public:
 	virtual ~NscdSpacePhys() = default;
 	void                         updateThresholds(Real gap, Real adhesionRange) override;
 	std::pair<const char*, Real> senseless() const override;
+	bool                         makesSenseAtOnce() const
+	{
+		const Real least = std::min(twistingArm, residualTwistingArm), sum = twistingArm + residualTwistingArm;
+		return NscdPhys::makesSenseAtOnce() && least >= 0 && nscd::isNumber(sum)
+		        && (!bonded || ellipseTwisting > 0);
+	}
 	/// Makes of strengths in the plane, as Ip2_NscdMat_NscdMat_NscdPhys sets them, those in space: tension on an area, and twisting.
 	void setStrengths(const NscdMat& a, const NscdMat& b);
 	/// Area [m²] on which the tensile strength of a contact of that length acts.
