@@ -109,8 +109,7 @@ bool NscdInteractionLoop::visit(const shared_ptr<Interaction>& I)
 	if (swap) I->swapOrder();
 	const shared_ptr<Body>&b1 = swap ? b2_ : b1_, &b2 = swap ? b1_ : b2_;
 	const bool             wasReal = I->isReal();
-	if (!cache.geom->go(b1->shape, b2->shape, *b1->state, *b2->state, Vector3r::Zero(), false, I))
-		return !wasReal;
+	if (!cache.geom->go(b1->shape, b2->shape, *b1->state, *b2->state, Vector3r::Zero(), false, I)) return !wasReal;
 	if (!cache.phys) cache.phys = physDispatcher->getFunctor2D(b1->material, b2->material, swap);
 	if (!cache.phys) lacksPhysics(*b1, *b2);
 	cache.phys->go(b1->material, b2->material, I);

@@ -53,9 +53,10 @@ public:
 	bool makesSenseAtOnce() const
 	{
 		const Real least = std::min({ residualTensileForce, residualFriction, residualRollingArm, tensileForce,
-			                      friction, rollingArm, restitution, creationDistance }),
+		                              friction, rollingArm, restitution, creationDistance }),
 		           sum   = std::abs(normal) + std::abs(tangential) + std::abs(torque) + residualTensileForce
-		        + residualFriction + residualRollingArm + tensileForce + friction + rollingArm + creationDistance;
+		        + residualFriction + residualRollingArm + tensileForce + friction + rollingArm
+		        + creationDistance;
 		return least >= 0 && restitution <= 1 && nscd::isNumber(sum)
 		        && (!bonded || (ellipseNormal > 0 && ellipseTangential > 0));
 	}

@@ -196,8 +196,7 @@ SpaceSeam::Part SpaceSeam::partOf(const Interaction& I) const
 		return Part::None; // of two bodies that are held, as in no plane and no space
 	if (!inSpace || !std::isfinite(static_cast<const ScGeom&>(*I.geom).normal.sum())) return Part::Refused;
 	phys->hearReset();
-	const bool makesSense
-	        = static_cast<NscdSpacePhys*>(phys)->makesSenseAtOnce() || !phys->senseless().first;
+	const bool makesSense = static_cast<NscdSpacePhys*>(phys)->makesSenseAtOnce() || !phys->senseless().first;
 	return !makesSense || phys->unheard() || !(phys->length > 0) ? Part::Refused : Part::Solved;
 }
 

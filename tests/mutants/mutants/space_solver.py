@@ -38,7 +38,7 @@ MUTANTS = (
     mutant("balls-kernel-arm", KERNELS, "at.get(k->leverJ) * b.w - at.get(k->leverI) * a.w", "at.get(k->leverJ) * b.w + at.get(k->leverI) * a.w",
            "in blocks U_t has the rotation of the first body with the wrong sign", MADE),
     mutant("balls-kernel-rest", KERNELS, "push(k, at, df, cross(get(at, k->n), df), m - get(at, k->beforeM), a, b)", "push(k, at, df, cross(get(at, k->n), df), get(at, k->beforeM) - m, a, b)", "a strip that comes to rest leaves spin in velocities",
-           "gtest:SpacePinned.*"),
+           "gtest:SpaceStrips.*"),
     mutant("balls-kernel-speeds", KERNELS, "missed + own + least", "missed + least", "speeds are held against themselves", PATHS),
     mutant("balls-kernel-normals", KERNELS, "b.v             = b.v + b.mass * df;", "b.v = b.v - b.mass * df;", "normal impulses of displacements pull the second body",
            "gtest:SpacePositions.*"),

@@ -9,7 +9,7 @@ from yade import O
 from yade.minieigenHP import Quaternion, Vector3
 from yade.nonsmooth import space
 from yade.utils import box, facet, sphere, wall
-from yade.wrapper import FaceGeom, NscdMat, NscdSpacePhys
+from yade.wrapper import ContactDynamicsEngine, FaceGeom, NscdMat, NscdSpacePhys
 
 pytestmark = pytest.mark.usefixtures("empty")
 
@@ -299,6 +299,38 @@ def test_the_same_bits_on_any_number_of_threads_and_after_loading(tmp_path):
     O.load(str(tmp_path / "scene.yade"), quiet=True)
     O.run(60, True)
     assert found[1] == found[2] == state()
+
+
+def test_sums_over_many_contacts_are_the_same_on_any_number_of_threads():
+    """A bed of 12 x 12 x 9 balls has some 3,000 contacts, which are summed up in several parts, and breaks in order."""
+
+    def found(threads):
+        O.reset()
+        stuff = material(0.4, rollingFriction=0.03, tensileStrength=5e3)
+        FLOORS["wall"](stuff)
+        rng = np.random.default_rng(4)
+        for k in range(12 * 12 * 9):
+            place = np.array([k % 12, k // 12 % 12, k // 144], float) + rng.uniform(0, 0.01, 3)
+            ball(tuple(place + (0, 0, R)), stuff, vel=Vector3(rng.uniform(-3, 3, 3)))
+        begin(tolerance=1e-3, reach=0.1)
+        for engine in O.engines:
+            engine.ompThreads = threads
+        O.step()
+        solver = next(engine for engine in O.engines if isinstance(engine, ContactDynamicsEngine))
+        solver.bond()
+        O.run(20, True)
+        modes = ("Tension", "Shear", "Torque", "Twisting", "Mixed")
+        broken = sum(getattr(solver, f"broken{mode}") for mode in modes)
+        assert solver.contacts > 2048 and broken > 20
+        assert len(solver.breakTable()) == broken * 7 * 8  # doubles
+        sums = "kineticEnergy potentialEnergy slidingLoss rollingLoss debondingLoss impactLoss overlapMean meanSpeed"
+        return [getattr(solver, name) for name in sums.split()], solver.breakTable(), state_of_all()
+
+    def state_of_all():
+        return [tuple(b.state.pos) + tuple(b.state.vel) + tuple(b.state.angVel) for b in O.bodies]
+
+    one = found(1)
+    assert found(2) == one and found(3) == one
 
 
 def test_energy_is_accounted_for():
