@@ -45,7 +45,7 @@ list(JOIN YADE_FEATURES " " features)
 set(gate_definitions "NONSMOOTH_YADE_VERSION=\"${YADE_VERSION}\"" "NONSMOOTH_YADE_FEATURES=\"${features}\"")
 
 function(nonsmooth_gate target)
-    add_library(${target} SHARED "${CMAKE_SOURCE_DIR}/pkg/dem/LayoutCheck.cpp")
+    add_library(${target} SHARED "${CMAKE_SOURCE_DIR}/pkg/dem/checks/LayoutCheck.cpp")
     target_link_libraries(${target} PRIVATE nonsmooth_yade ${CMAKE_DL_LIBS})
     target_compile_definitions(${target} PRIVATE ${gate_definitions})
     set_target_properties(${target} PROPERTIES OUTPUT_NAME nonsmooth NONSMOOTH_UNOPTIMISED ON)
@@ -53,8 +53,7 @@ endfunction()
 nonsmooth_gate(nonsmooth_gate)
 
 # A translation unit that includes YADE's headers takes 30 s before its own code: two large ones, or one a core where memory holds them (3 GB each).
-file(GLOB engine_sources CONFIGURE_DEPENDS "${CMAKE_SOURCE_DIR}/pkg/dem/*.cpp" "${CMAKE_SOURCE_DIR}/pkg/dem/seam/*.cpp"
-    "${CMAKE_SOURCE_DIR}/pkg/dem/space/*.cpp")
+file(GLOB_RECURSE engine_sources CONFIGURE_DEPENDS "${CMAKE_SOURCE_DIR}/pkg/dem/*.cpp")
 list(FILTER engine_sources EXCLUDE REGEX "/LayoutCheck\\.cpp$")
 if(NOT engine_sources)
     file(WRITE "${CMAKE_BINARY_DIR}/no_engines.cpp" "// pkg/dem holds no engines yet\n")

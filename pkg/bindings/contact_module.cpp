@@ -2,11 +2,11 @@
 // the face of it.
 #include "problems.hpp"
 #include <chrono>
-#include <contact/memory_stream.hpp>
-#include <contact/problem_check.hpp>
-#include <contact/problem_file.hpp>
-#include <contact/residual.hpp>
-#include <contact/solver.hpp>
+#include <contact/plane/memory_stream.hpp>
+#include <contact/plane/problem_check.hpp>
+#include <contact/plane/problem_file.hpp>
+#include <contact/plane/residual.hpp>
+#include <contact/plane/solver.hpp>
 #include <contact/space/residual.hpp>
 #include <contact/space/solver.hpp>
 

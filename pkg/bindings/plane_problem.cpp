@@ -1,5 +1,5 @@
 #include "problems.hpp"
-#include <contact/problem_file.hpp>
+#include <contact/plane/problem_file.hpp>
 
 namespace nonsmooth::bindings {
 

@@ -3,7 +3,7 @@
 #pragma once
 
 #include "arrays.hpp"
-#include <contact/problem.hpp>
+#include <contact/plane/problem.hpp>
 #include <contact/space/problem.hpp>
 
 namespace nonsmooth::bindings {

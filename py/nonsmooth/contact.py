@@ -2,7 +2,7 @@
 
 A problem is what one step of :class:`ContactDynamicsEngine` has to solve: write it with ``engine.dump("step.h5")``,
 read it here. :class:`ContactProblem` is one of disks in the plane, :class:`SpaceProblem` one of spheres, and of other
-bodies, in space; all functions take both. The file's format stands in ``pkg/contact/problem_file.hpp`` and
+bodies, in space; all functions take both. The file's format stands in ``pkg/contact/plane/problem_file.hpp`` and
 ``pkg/contact/space/problem_file.hpp``. Needs NumPy and this project's module ``_nonsmooth_contact``, but no YADE::
 
     import nonsmooth.contact as contact
@@ -118,7 +118,7 @@ class Residual:
 @dataclass(frozen=True)
 class VelocityChanges:
     """What LMGC90's stopping tests look at, for impulses whoever found them: the changes of relative velocity that one
-    more visit of each contact would make, in five dimensionless figures (``pkg/contact/stopping.hpp``), and what each
+    more visit of each contact would make, in five dimensionless figures (``pkg/contact/plane/stopping.hpp``), and what each
     test compares with its tolerance.
     """
 
@@ -144,7 +144,7 @@ class Solution:
     patches: int  # of contacts around mass jumps that were solved at once, each as often as it was
     converged: bool
     relative: float  # residual (natural map) of what is returned, whatever test stopped the solver
-    # rms over contacts of the share of their speed that is left open (ϑ of pkg/contact/residual.hpp) [-]
+    # rms over contacts of the share of their speed that is left open (ϑ of pkg/contact/plane/residual.hpp) [-]
     speed_share: float
     speed_share_largest: float  # the largest of them, of a contact's point and without rolling
     seconds: float  # wall time of the solve, without the copying of arrays [s]

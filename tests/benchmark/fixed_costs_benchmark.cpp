@@ -5,7 +5,7 @@
 #include "problem.hpp"
 #include <benchmark/benchmark.h>
 #include <chrono>
-#include <contact/solver.hpp>
+#include <contact/plane/solver.hpp>
 
 using namespace nonsmooth::contact;
 

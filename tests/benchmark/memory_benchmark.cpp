@@ -2,7 +2,7 @@
 // may fit into a cache, and over 256 MB, which do not.
 #include "problem.hpp"
 #include <benchmark/benchmark.h>
-#include <contact/memory_stream.hpp>
+#include <contact/plane/memory_stream.hpp>
 
 using namespace nonsmooth::contact;
 

@@ -2,7 +2,7 @@
 #pragma once
 
 #include "problems.hpp"
-#include <contact/problem_file.hpp>
+#include <contact/plane/problem_file.hpp>
 #include <cstdlib>
 
 namespace nonsmooth::contact::benchmarks {

@@ -1,8 +1,8 @@
 // Which strips are visited, and that nothing but work depends on it.
 #include "every_path.hpp"
 #include "problems.hpp"
-#include <contact/active_strips.hpp>
-#include <contact/solver.hpp>
+#include <contact/core/active_strips.hpp>
+#include <contact/plane/solver.hpp>
 #include <cmath>
 #include <gtest/gtest.h>
 

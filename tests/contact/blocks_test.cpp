@@ -2,9 +2,9 @@
 #include "every_path.hpp"
 #include "problems.hpp"
 #include <algorithm>
-#include <contact/contact_blocks.hpp>
-#include <contact/law.hpp>
-#include <contact/residual.hpp>
+#include <contact/core/contact_blocks.hpp>
+#include <contact/plane/law.hpp>
+#include <contact/plane/residual.hpp>
 #include <gtest/gtest.h>
 
 using namespace nonsmooth::contact;

@@ -4,7 +4,7 @@
 #include "problems.hpp"
 #include <algorithm>
 #include <cmath>
-#include <contact/solver.hpp>
+#include <contact/plane/solver.hpp>
 #include <gtest/gtest.h>
 #include <string>
 #include <vector>

@@ -1,6 +1,6 @@
 // Impacts one after the other within a step: by hand, against impacts in the order of time in one dimension, by balances and symmetry.
 #include <cmath>
-#include <contact/impact_sequence.hpp>
+#include <contact/plane/impact_sequence.hpp>
 #include <contact/plane/disk_contact.hpp>
 #include <gtest/gtest.h>
 #include <random>

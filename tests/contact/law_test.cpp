@@ -1,6 +1,6 @@
 // The projections of the contact law, branch by branch, and the functions of slip.
 #include <cmath>
-#include <contact/law.hpp>
+#include <contact/plane/law.hpp>
 #include <gtest/gtest.h>
 
 using namespace nonsmooth::contact;

@@ -7,7 +7,7 @@
 
 #include <algorithm>
 #include <cmath>
-#include <contact/problem.hpp>
+#include <contact/plane/problem.hpp>
 #include <random>
 #include <vector>
 

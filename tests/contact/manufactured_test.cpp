@@ -2,7 +2,7 @@
 // moved, and sweeps stay there and get there.
 #include "every_path.hpp"
 #include "manufactured.hpp"
-#include <contact/residual.hpp>
+#include <contact/plane/residual.hpp>
 #include <gtest/gtest.h>
 
 using namespace nonsmooth::contact;

@@ -1,6 +1,6 @@
 // The bits of three problems after fifty sweeps: whoever changes them decides so, and says it in a commit.
 #include "problems.hpp"
-#include <contact/problem_file.hpp>
+#include <contact/plane/problem_file.hpp>
 #include <filesystem>
 #include <gtest/gtest.h>
 #include <iomanip>

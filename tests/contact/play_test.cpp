@@ -1,8 +1,8 @@
 // Bonds that close freely: each branch of their graph by hand, one contact against its analytic answer on every path, chains, displacements, and heavy bodies.
 #include "every_path.hpp"
 #include "uneven.hpp"
-#include <contact/law.hpp>
-#include <contact/residual.hpp>
+#include <contact/plane/law.hpp>
+#include <contact/plane/residual.hpp>
 #include <gtest/gtest.h>
 
 using namespace nonsmooth::contact;

@@ -1,8 +1,8 @@
 // Sweeps in single precision: what they find is held against the law in doubles, in any units and however fast everything moves.
 #include "every_path.hpp"
 #include "problems.hpp"
-#include <contact/law.hpp>
-#include <contact/residual.hpp>
+#include <contact/plane/law.hpp>
+#include <contact/plane/residual.hpp>
 #include <gtest/gtest.h>
 
 using namespace nonsmooth::contact;

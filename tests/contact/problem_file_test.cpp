@@ -1,6 +1,6 @@
 // A contact problem survives the file, bit for bit; files that are not one are refused with their name.
 #include "problems.hpp"
-#include <contact/problem_file.hpp>
+#include <contact/plane/problem_file.hpp>
 #include <csignal>
 #include <filesystem>
 #include <fstream>

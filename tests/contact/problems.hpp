@@ -2,8 +2,8 @@
 #pragma once
 
 #include <cmath>
-#include <contact/problem.hpp>
-#include <contact/solver.hpp>
+#include <contact/plane/problem.hpp>
+#include <contact/plane/solver.hpp>
 #include <cstring>
 #include <map>
 #include <random>

@@ -1,7 +1,7 @@
 // What Siconos answered to twenty problems (tests/data/README.md), held also where it is not installed. Siconos shares no line with our solver.
 #include "every_path.hpp"
-#include <contact/problem_file.hpp>
-#include <contact/residual.hpp>
+#include <contact/plane/problem_file.hpp>
+#include <contact/plane/residual.hpp>
 #include <filesystem>
 #include <gtest/gtest.h>
 

@@ -1,7 +1,7 @@
 // Stopping tests by name: their figures by hand for one contact, and where they stop a solve.
 #include "problems.hpp"
-#include <contact/residual.hpp>
-#include <contact/stopping.hpp>
+#include <contact/plane/residual.hpp>
+#include <contact/plane/stopping.hpp>
 #include <gtest/gtest.h>
 
 using namespace nonsmooth::contact;

@@ -1,6 +1,6 @@
 // Workers that visit side by side must leave what one pass over all even and then all odd strips leaves.
 #include <algorithm>
-#include <contact/strip_schedule.hpp>
+#include <contact/core/strip_schedule.hpp>
 #include <gtest/gtest.h>
 #include <omp.h>
 

@@ -1,8 +1,8 @@
 // Strips let threads share a sweep without changing a bit.
 #include "problems.hpp"
 #include <algorithm>
-#include <contact/strip_schedule.hpp>
-#include <contact/sweep_order.hpp>
+#include <contact/core/strip_schedule.hpp>
+#include <contact/core/sweep_order.hpp>
 #include <gtest/gtest.h>
 
 using namespace nonsmooth::contact;

@@ -3,7 +3,7 @@
 
 #include "problems.hpp"
 #include <array>
-#include <contact/law.hpp>
+#include <contact/plane/law.hpp>
 #include <random>
 
 namespace nonsmooth::contact::testing {

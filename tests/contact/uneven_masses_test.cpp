@@ -1,10 +1,10 @@
 // Light bodies among heavy ones: what is called solved is solved for each, and such problems are solved at all.
 #include "every_path.hpp"
 #include "uneven.hpp"
-#include <contact/bordered_band.hpp>
-#include <contact/law.hpp>
-#include <contact/mass_jumps.hpp>
-#include <contact/residual.hpp>
+#include <contact/plane/bordered_band.hpp>
+#include <contact/plane/law.hpp>
+#include <contact/plane/mass_jumps.hpp>
+#include <contact/plane/residual.hpp>
 #include <gtest/gtest.h>
 
 using namespace nonsmooth::contact;

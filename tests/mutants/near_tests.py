@@ -39,7 +39,8 @@ class NearTests:
         """
         words = [w.strip("_") for w in scope.split(".") if w.strip("_")] or [Path(file).stem]
         near = self._of_python(file, words) if file.endswith(".py") else self._of_cpp(file)
-        parts = [p for p in Path(file).with_suffix("").parts if p not in (*PACKAGE.parts, "pkg", "dem", "__init__")]
+        folders = (*PACKAGE.parts, "pkg", "dem", "engines", "materials", "walls", "checks", "__init__")
+        parts = [p for p in Path(file).with_suffix("").parts if p not in folders]
         # WallForceEngine: wall_force
         parts = [re.sub(r"(?<=[a-z])(?=[A-Z])", "_", p).lower().removesuffix("_engine") for p in parts]
 

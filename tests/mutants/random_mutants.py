@@ -38,7 +38,7 @@ SHORTEST = 60.0  # s, for a file of tests, or five times what it takes without a
 BUDGET = 240.0  # s, for all files that judge a mutant; what is left then is not asked
 LONG = 30.0  # s; files known to take longer are asked last
 SOUND_LIMIT = 900.0  # s, for a file without a mutant
-GATE = "pkg/dem/LayoutCheck.cpp"  # a library of its own, which YADE loads before the one that has the switch
+GATE = "pkg/dem/checks/LayoutCheck.cpp"  # a library of its own, which YADE loads before the one that has the switch
 
 
 def read_arguments():
@@ -56,7 +56,10 @@ def read_arguments():
         "--seed", type=int, default=1, metavar="S", help="other mutants for each seed (default: %(default)s)"
     )
     parser.add_argument(
-        "--only", nargs="+", metavar="MODULE", help="of these modules (laboratory.strength) or files (pkg/dem/Arc.cpp)"
+        "--only",
+        nargs="+",
+        metavar="MODULE",
+        help="of these modules (laboratory.strength) or files (pkg/dem/walls/Arc.cpp)",
     )
     parser.add_argument(
         "--resume", action="store_true", help="goes on: those that were judged before keep their verdicts"
@@ -104,7 +107,7 @@ def files_of(parser, args):
     for word, name in zip(args.only, named):
         if not any(f in (name, f"{name}.py") or f.startswith(f"{name}/") for f in every):
             parser.error(
-                f"--only {word}: there is no such file; give a module as laboratory.strength, or a file as pkg/dem/Arc.cpp with --cpp"
+                f"--only {word}: there is no such file; give a module as laboratory.strength, or a file as pkg/dem/walls/Arc.cpp with --cpp"
             )
     return found
 

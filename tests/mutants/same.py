@@ -79,7 +79,7 @@ SAME = {
         "known && at.feature == space::Nearest::Face && known->normal.dot(normal) <= 0",
     ): "two normals of one face are alike or opposite, and never at right angles",
     (
-        "pkg/dem/space/SpaceSeam.cpp",
+        "pkg/dem/space/SpaceSeamScatter.cpp",
         "phys.restitution > 0 && !phys.bonded && c.biasN > 0 && rows.n > 0",
         "phys.restitution > 0 && !phys.bonded && c.biasN >= 0 && rows.n > 0",
     ): "where nothing is to close and nothing comes nearer, no work is missed",
@@ -173,17 +173,21 @@ SAME = {
     ): "an outline that closes has fewer places than the triangles have sides; one that does not ends a step sooner",
     # ---- pkg/dem: what is only looked up, shown or asked once more
     (
-        "pkg/dem/PlateLoadEngine.cpp",
+        "pkg/dem/engines/PlateLoadEngine.cpp",
         "!former.empty()",
         "true",
     ): "interactions are shown where none is taken away, which changes no bit",
     ("pkg/dem/seam/Turn.cpp", "!data->shownAlone.empty()", "true"): "of no bodies none is taken again",
-    ("pkg/dem/WallJoints.cpp", "now != walls", "true"): "joints of the same walls are found again and are the same",
-    ("pkg/dem/PlateLoadEngine.cpp", "rail < 0", "rail < 1"): (
+    (
+        "pkg/dem/walls/WallJoints.cpp",
+        "now != walls",
+        "true",
+    ): "joints of the same walls are found again and are the same",
+    ("pkg/dem/engines/PlateLoadEngine.cpp", "rail < 0", "rail < 1"): (
         "hold() takes the former guide away where the rail is body #0, and soft contacts have none"
     ),
     (
-        "pkg/dem/SceneCheck.cpp",
+        "pkg/dem/checks/ContactCheck.cpp",
         "known.count(b->material->getClassIndex()) || loop->physDispatcher->getFunctor2D(b->material, ours, swap)",
         "false || loop->physDispatcher->getFunctor2D(b->material, ours, swap)",
     ): "a class whose functor was found is asked about again, with the same answer",
@@ -193,7 +197,7 @@ SAME = {
         "1 - 2e-09",
     ): "who may act a rounding sooner is shown the bodies for nothing, which changes no bit",
     (
-        "pkg/dem/Arc.cpp",
+        "pkg/dem/walls/Arc.cpp",
         "-shift2",
         "shift2",
     ): "YADE turns the interaction round and calls go(): nobody calls goReverse()",
@@ -209,17 +213,17 @@ SAME = {
         "ri > 0 && rj >= 0",
     ): "no radius is 0: that of a disk is positive, else it is refused, and all others have -1",
     (
-        "pkg/dem/Law2_SegmentGeom_WallPhys_SlipWeakening.cpp",
+        "pkg/dem/materials/Law2_SegmentGeom_WallPhys_SlipWeakening.cpp",
         "-1",
         "-2",
     ): "to YADE's EnergyTracker any negative place is none yet",
     (
-        "pkg/dem/ContactDynamicsWarnings.cpp",
+        "pkg/dem/engines/ContactDynamicsWarnings.cpp",
         "heaviest > 0 && lightest > contact::massJump * heaviest",
         "heaviest >= 0 && lightest > contact::massJump * heaviest",
     ): "where no body can move both are 0, and 0 is no more than 0",
     (
-        "pkg/dem/SceneCheck.cpp",
+        "pkg/dem/checks/ContactCheck.cpp",
         "reading.nx + reading.ny + reading.nz",
         "reading.nx - reading.ny + reading.nz",
     ): "parts of a normal of length 1, or not finite: so is their sum, with either sign",

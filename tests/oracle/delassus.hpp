@@ -4,7 +4,7 @@
 // applyImpulse, inverseDelassus): an error in those would then show as a disagreement.
 #pragma once
 
-#include <contact/problem.hpp>
+#include <contact/plane/problem.hpp>
 #include <cstddef>
 #include <vector>
 

@@ -10,7 +10,7 @@
 //     none at any contact,    fc2d_driver, SICONOS_FRICTION_2D_NSGS: the same with the exact solution of each contact.
 //     or --without-rolling
 // K is the cone |T| ≤ μ N̂, |Γ| ≤ μ_r ℓ N̂ with N̂ = N + h F_a, and De Saxcé's change of the normal velocity,
-// U_n + μ |U_t| + μ_r ℓ |w|, makes "change of U in the dual of K, orthogonal to P̂" the same as the three graphs of contact/law.hpp.
+// U_n + μ |U_t| + μ_r ℓ |w|, makes "change of U in the dual of K, orthogonal to P̂" the same as the three graphs of contact/plane/law.hpp.
 //
 // Siconos stops where its error is below the tolerance: the natural map with ρ = 1, summed over contacts, relative to |q|. That
 // asks for a problem whose W is near 1, so every row is scaled by the square root of its diagonal (delassus.hpp): this is a mass for the
@@ -24,7 +24,7 @@
 #include <cmath>
 #include <cstdio>
 #include <cstring>
-#include <contact/problem_file.hpp>
+#include <contact/plane/problem_file.hpp>
 #include <exception>
 #include <memory>
 #include <stdexcept>

@@ -32,7 +32,7 @@ else
 fi
 
 echo "== strip schedule: ThreadSanitizer"
-"$compiler" -std=c++17 -O1 -g -fsanitize=thread -I"$root/pkg" "$root/tests/sanitizers/schedule_threads.cpp" "$root/pkg/contact/strip_schedule.cpp" \
+"$compiler" -std=c++17 -O1 -g -fsanitize=thread -I"$root/pkg" "$root/tests/sanitizers/schedule_threads.cpp" "$root/pkg/contact/core/strip_schedule.cpp" \
     -pthread -o "$build/schedule_threads"
 TSAN_OPTIONS=halt_on_error=1 "$build/schedule_threads"
 echo "No sanitizer had anything to say."

@@ -1,6 +1,6 @@
 // The strip schedule with threads of the language, for ThreadSanitizer: it does not know OpenMP's barriers and would see races where there are none. Strips
 // and what they share are plain numbers, so any visit that is not ordered with those of its neighbours is a race.
-#include <contact/strip_schedule.hpp>
+#include <contact/core/strip_schedule.hpp>
 #include <cstdio>
 #include <functional>
 #include <thread>

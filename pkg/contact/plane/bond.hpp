@@ -5,12 +5,12 @@
 //     d = x₂ + q₂ a₂ q₂* − x₁ − q₁ a₁ q₁* ,   n = q₁ n₀ q₁* ,   d_n = d·n ,   d_t = n × d ,
 // the bond lives while (d_n / ε_n ℓ)² + (d_t / ε_t ℓ)² < 1 and is lost for good when it leaves. All comes from positions and rotations.
 // With α₁ and α₂ the angles by which the contact has gone about each body, as seen from it, it has slipped by s = λ₁ α₁ + λ₂ α₂ (λ: centre to contact) and turned by
-// ψ = α₁ − α₂, whose rates are U_t and w of contact/law.hpp; on a straight wall s = d_t − r (ψ − sin ψ). A bond that holds has no such rates: what of s and ψ it has not
-// yielded is an error of position. Where bodies turn as one (rigid_clusters.hpp) it would add up, and the next steps take it back (contact/solver.hpp), as they do with its gap.
-// A bond at its threshold yields. In a step of length h with relative velocities U and impulses P (thresholds as in contact/law.hpp) it yields by
+// ψ = α₁ − α₂, whose rates are U_t and w of contact/plane/law.hpp; on a straight wall s = d_t − r (ψ − sin ψ). A bond that holds has no such rates: what of s and ψ it has not
+// yielded is an error of position. Where bodies turn as one (rigid_clusters.hpp) it would add up, and the next steps take it back (contact/plane/solver.hpp), as they do with its gap.
+// A bond at its threshold yields. In a step of length h with relative velocities U and impulses P (thresholds as in contact/plane/law.hpp) it yields by
 //     h U_n where P_n = −h F_a and U_n > 0 ,   |h U_t| where |P_t| = μ_s (h F_a + P_n) ,   |h w| ℓ/2 where |P_r| = μ_r ℓ (h F_a + P_n) .
 // The sums over the bond's life are its yield paths; what has more than 0.6 of them all names the break. In tension it keeps the longest gap it has had.
-// A bond that closes freely (contact/law.hpp) has in such a step the gap g of its bodies and the length L that it keeps, which it may not leave:
+// A bond that closes freely (contact/plane/law.hpp) has in such a step the gap g of its bodies and the length L that it keeps, which it may not leave:
 //     b_n = max(g, 0) / h ,   p = max(L, g) / h .
 // It yields by h (U_n + b_n − p) in tension, and as always across. A bond made at touch has L = 0 and is as any other. That the bodies draw together is no damage:
 // d_n < 0 counts as 0. Opened up to L again it is what it was, since no force has done work in between.
@@ -18,7 +18,7 @@
 // The first body is the wall, or that of lower id. Deviation from the paper: none; the 0.6 is ours, the paper tells no modes of mixed breaks.
 #pragma once
 
-#include <contact/law.hpp>
+#include <contact/plane/law.hpp>
 #include <contact/plane/motion.hpp>
 
 namespace nonsmooth::contact::plane {

@@ -2,12 +2,12 @@
 //
 // With x the centres, r the radii, d = x₂ − x₁:
 //     n = d/|d| ,   g = |d| − (r₁ + r₂) ,   x_c = x₁ + (r₁ + g/2) n ,   λt₁ = r₁ + g/2 ,   λt₂ = −(r₂ + g/2) ,   λn = 0
-// (levers as in contact/problem.hpp). Sign: n from the first disk to the second; a gap is positive, an overlap negative. Units: m.
+// (levers as in contact/plane/problem.hpp). Sign: n from the first disk to the second; a gap is positive, an overlap negative. Units: m.
 // The contact lies midway between the two surfaces, so that both bodies are turned by one and the same force. Bits: as Ig2_Sphere_Sphere_ScGeom.
 #pragma once
 
 #include <cmath>
-#include <contact/problem.hpp>
+#include <contact/plane/problem.hpp>
 
 namespace nonsmooth::contact::plane {
 

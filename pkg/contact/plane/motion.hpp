@@ -12,7 +12,7 @@
 #pragma once
 
 #include <cmath>
-#include <contact/problem.hpp>
+#include <contact/plane/problem.hpp>
 
 namespace nonsmooth::contact::plane {
 

@@ -14,7 +14,7 @@
 // equation for a step of the positions.
 #pragma once
 
-#include <contact/problem.hpp>
+#include <contact/plane/problem.hpp>
 #include <utility>
 #include <vector>
 

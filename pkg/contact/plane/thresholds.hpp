@@ -1,4 +1,4 @@
-// What a contact can bear in a step: the thresholds of the law in contact/law.hpp from the strengths of the contact (Taboada and Estrada 2009, section 2.2).
+// What a contact can bear in a step: the thresholds of the law in contact/plane/law.hpp from the strengths of the contact (Taboada and Estrada 2009, section 2.2).
 //
 //     bonded         F_a, μ_s, μ_r ℓ of the bond
 //     touching       the residual ones: g ≤ r ℓ, with g the gap and r the range of adhesion

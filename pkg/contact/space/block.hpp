@@ -1,4 +1,4 @@
-// Eight contacts in space at a time: the data of a sweep. contact/block_kernels.hpp says how blocks, lanes and
+// Eight contacts in space at a time: the data of a sweep. contact/core/lanes.hpp and plane/block_kernels.hpp say how blocks, lanes and
 // instruction sets go together; the loops are
 // space/kernels.inc.
 //
@@ -7,7 +7,7 @@
 // velocities, and contacts have in their biases what free velocities make of them.
 #pragma once
 
-#include <contact/kernel_table.hpp>
+#include <contact/core/kernel_table.hpp>
 #include <contact/space/law.hpp>
 #include <contact/space/residual.hpp>
 #include <vector>
@@ -60,7 +60,7 @@ struct Space {
 using BlockNumbers = BlockNumbersIn<Space>;
 using BlockKernels = BlockKernelsIn<Space>;
 
-/// W⁻¹ p of a lane with the play p, of which contact/law.hpp speaks.
+/// W⁻¹ p of a lane with the play p, of which contact/plane/law.hpp speaks.
 inline double playOf(const Block<double>& block, std::size_t lane, double play)
 {
 	return block.inverseN.v[lane] * play;

@@ -1,4 +1,4 @@
-#include <contact/contact_blocks.tpp>
+#include <contact/core/contact_blocks.tpp>
 #include <contact/space/solver.hpp>
 
 namespace nonsmooth::contact {

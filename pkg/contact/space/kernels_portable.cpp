@@ -1,6 +1,5 @@
 #include "kernels.inc"
-#include <contact/block_kernels.hpp>
-#include <cstring>
+#include <contact/core/instruction_sets.hpp>
 
 namespace nonsmooth::contact::space {
 
@@ -10,9 +9,8 @@ const std::vector<const BlockKernels*>& availableKernels()
 	static const auto         kernels  = [] {
                 std::vector<const BlockKernels*> found;
 #ifdef NONSMOOTH_AVX
-		for (const contact::BlockKernels* plane : contact::availableKernels())
-			for (const BlockKernels* own : { &avx512Kernels(), &avx2Kernels() })
-				if (std::strcmp(plane->name, own->name) == 0) found.push_back(own);
+		if (runs(InstructionSet::Avx512)) found.push_back(&avx512Kernels());
+		if (runs(InstructionSet::Avx2)) found.push_back(&avx2Kernels());
 #endif
 		found.push_back(&portable);
 		return found;

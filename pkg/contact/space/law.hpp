@@ -1,4 +1,4 @@
-// The cohesive contact law in space, as one projection: that of the plane (contact/law.hpp) with discs in the place of
+// The cohesive contact law in space, as one projection: that of the plane (contact/plane/law.hpp) with discs in the place of
 // intervals, and a fourth graph for twisting.
 //
 // Equations. N, T, Γ, Σ are the normal force, the shear force, the rolling torque and the twisting torque of a contact,
@@ -30,7 +30,7 @@
 #pragma once
 
 #include <cmath>
-#include <contact/law.hpp>
+#include <contact/core/projections.hpp>
 #include <contact/space/problem.hpp>
 
 namespace nonsmooth::contact::space {
@@ -126,7 +126,7 @@ visit(const Contact& c, const Impulse& y, const Diagonal& inverse, const Inverse
 	return impulseOf(c, to);
 }
 
-/// As in the plane (contact/law.hpp): impulses of a contact whose relative velocity `u` is given, so that no impulse
+/// As in the plane (contact/plane/law.hpp): impulses of a contact whose relative velocity `u` is given, so that no impulse
 /// changes it.
 inline Impulse impulseOfGivenMotion(const Contact& c, const RelativeVelocity& u)
 {

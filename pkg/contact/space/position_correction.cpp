@@ -1,4 +1,4 @@
-#include <contact/correct.tpp>
+#include <contact/core/correct.tpp>
 #include <contact/space/sweeper.hpp>
 
 namespace nonsmooth::contact::space {

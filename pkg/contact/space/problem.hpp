@@ -1,5 +1,5 @@
 // One step's contact problem in space as plain arrays: what the solver reads and writes. The plane's is
-// contact/problem.hpp.
+// contact/plane/problem.hpp.
 //
 // A contact couples bodies i and j through its normal n, from i to j. With a the arm from a body's centre to the
 // contact point, v and ω its velocity and angular velocity,
@@ -68,7 +68,7 @@ struct Contact {
 	double       rollingArm  = 0; // μ_r ℓ [m]
 	double       twistingArm = 0; // μ_tw ℓ [m]
 	double       length      = 1; // ℓ [m]: turns residuals of moments into impulses
-	double       play        = 0; // L/h [m/s]: of a bond that closes freely, see contact/law.hpp; 0 of all others
+	double       play = 0; // L/h [m/s]: of a bond that closes freely, see contact/plane/law.hpp; 0 of all others
 };
 
 struct Problem {

@@ -1,7 +1,7 @@
-// What the solver refuses of a problem in space before it starts; contact/problem_check.hpp says how it is asked.
+// What the solver refuses of a problem in space before it starts; contact/plane/problem_check.hpp says how it is asked.
 #pragma once
 
-#include <contact/problem_check.hpp>
+#include <contact/core/check.hpp>
 #include <contact/space/problem.hpp>
 
 namespace nonsmooth::contact::space {

@@ -1,5 +1,5 @@
 #include <algorithm>
-#include <contact/problem_hdf5.hpp>
+#include <contact/core/problem_hdf5.hpp>
 #include <contact/space/problem_file.hpp>
 
 namespace nonsmooth::contact::space {

@@ -1,4 +1,4 @@
-// A contact problem in space as an HDF5 file; contact/problem_file.hpp has the plane's.
+// A contact problem in space as an HDF5 file; contact/plane/problem_file.hpp has the plane's.
 //
 // Groups and datasets (doubles, or 32-bit integers for `body`), b bodies and c contacts, units as in space/problem.hpp:
 //     /                        attributes `format` (2), `dimension` (3) and `time_step` [s]

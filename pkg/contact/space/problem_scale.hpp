@@ -1,7 +1,7 @@
-// A problem in space in other units (contact/problem_scale.hpp).
+// A problem in space in other units (contact/plane/problem_scale.hpp).
 #pragma once
 
-#include <contact/problem_scale.hpp>
+#include <contact/core/scaling.hpp>
 #include <contact/space/problem.hpp>
 
 namespace nonsmooth::contact::space {

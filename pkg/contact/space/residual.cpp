@@ -1,5 +1,5 @@
 #include <algorithm>
-#include <contact/residual.tpp>
+#include <contact/core/residual.tpp>
 #include <contact/space/law.hpp>
 #include <contact/space/residual.hpp>
 

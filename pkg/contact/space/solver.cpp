@@ -1,5 +1,5 @@
 #include <cmath>
-#include <contact/solve.tpp>
+#include <contact/core/solve.tpp>
 #include <contact/space/problem_scale.hpp>
 #include <contact/space/sweeper.hpp>
 

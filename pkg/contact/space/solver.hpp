@@ -1,5 +1,5 @@
 // The solver for problems in space: method, settings, statistics and the two passes of precision are those of the plane
-// (contact/solver.hpp), the law is space/law.hpp's.
+// (contact/core/settings.hpp), the law is space/law.hpp's.
 //
 // A body's errors of position are taken back by displacements D and rotations R that leave no velocity behind, as in
 // the plane:
@@ -9,8 +9,8 @@
 // are far apart.
 #pragma once
 
-#include <contact/contact_blocks.hpp>
-#include <contact/solver.hpp>
+#include <contact/core/settings.hpp>
+#include <contact/core/workspace.hpp>
 #include <contact/space/block.hpp>
 #include <contact/space/survey.hpp>
 
@@ -53,7 +53,7 @@ void correctPositions(
 /// before anything is changed.
 SolverStatistics solve(Problem& problem, const SolverSettings& settings, Workspace* workspace = nullptr);
 
-/// What one more visit would change of a contact (contact/stopping.hpp), with all four rows.
+/// What one more visit would change of a contact (contact/core/stopping.hpp), with all four rows.
 VisitChange
 changeOf(const Contact& c, const Impulse& p, const InverseMass& mi, const InverseMass& mj, Twist vi, Twist vj);
 

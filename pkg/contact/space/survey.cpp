@@ -1,5 +1,5 @@
 #include <algorithm>
-#include <contact/mass_jumps.hpp>
+#include <contact/core/mass_ratio.hpp>
 #include <contact/space/problem_check.hpp>
 #include <contact/space/survey.hpp>
 

@@ -1,7 +1,7 @@
-// A look at every body and contact of a problem in space before a solve; contact/problem_survey.hpp says what for.
+// A look at every body and contact of a problem in space before a solve; contact/core/survey.hpp says what for.
 #pragma once
 
-#include <contact/problem_survey.hpp>
+#include <contact/core/survey.hpp>
 #include <contact/space/problem.hpp>
 
 namespace nonsmooth::contact::space {

@@ -1,5 +1,5 @@
 #include <contact/space/sweeper.hpp>
-#include <contact/sweeper.tpp>
+#include <contact/core/sweeper.tpp>
 
 namespace nonsmooth::contact {
 

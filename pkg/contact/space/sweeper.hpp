@@ -1,8 +1,8 @@
-// The sweeps of the driver (contact/sweeper.hpp) in space.
+// The sweeps of the driver (contact/core/sweeper.hpp) in space.
 #pragma once
 
 #include <contact/space/solver.hpp>
-#include <contact/sweeper.hpp>
+#include <contact/core/sweeper.hpp>
 
 namespace nonsmooth::contact::space {
 

@@ -1,16 +1,7 @@
 #include "Audience.hpp"
-#include "../Advance.hpp"
-#include "../ContactDynamicsEngine.hpp"
-#include "../CourseRunner.hpp"
-#include "../GroundMotionEngine.hpp"
-#include "../NonsmoothTimeStepper.hpp"
-#include "../NscdInteractionLoop.hpp"
-#include "../PlanarGridCollider.hpp"
-#include "../PlanarNewtonIntegrator.hpp"
-#include "../PlateLoadEngine.hpp"
-#include "../PorePressureEngine.hpp"
-#include "../SceneCheck.hpp"
-#include "../WallForceEngine.hpp"
+#include "Advance.hpp"
+#include "../checks/SceneCheck.hpp"
+#include "EngineRoles.hpp"
 #include <core/Omega.hpp>
 #include <pkg/common/ForceResetter.hpp>
 #include <pkg/common/PeriodicEngines.hpp>
@@ -28,13 +19,13 @@ namespace {
 	/// Reads and writes neither bodies nor interactions. Of these classes themselves, since a derived one may.
 	bool isBlind(const Engine& engine)
 	{
-		return isOneOf<ForceResetter, NonsmoothTimeStepper, WallForceEngine>(engine);
+		return isOneOf<ForceResetter>(engine) || roleOf(engine) == EngineRole::Blind;
 	}
 
-	/// Runs Python, or writes files. But for CourseRunner its isActivated is PeriodicEngine's, or Recorder's, which asks that one.
+	/// Runs Python, or writes files. But for what says itself when it acts its isActivated is PeriodicEngine's, or Recorder's, which asks that one.
 	bool isRunnerOrRecorder(const Engine& engine)
 	{
-		return isOneOf<PyRunner, CourseRunner>(engine) || dynamic_cast<const Recorder*>(&engine)
+		return isOneOf<PyRunner>(engine) || roleOf(engine) == EngineRole::Runner || dynamic_cast<const Recorder*>(&engine)
 		        || engine.getClassName() == "VTKRecorder" || engine.getClassName() == "SnapshotEngine"
 		        || engine.getClassName() == "DomainLimiter";
 	}
@@ -61,17 +52,12 @@ namespace {
 
 bool othersMayLook(const Scene& scene) { return Omega::instance().isRunning() || stepsLeft(scene) > 0; }
 
-bool takesTurns(const Engine& engine)
-{
-	return isOneOf<
-	        PlanarGridCollider, NscdInteractionLoop, PorePressureEngine, PlateLoadEngine, GroundMotionEngine,
-	        ContactDynamicsEngine, PlanarNewtonIntegrator>(engine);
-}
+bool takesTurns(const Engine& engine) { return roleOf(engine) == EngineRole::TakesTurns; }
 
 bool mayAct(const Engine& engine, long iter, Real time, Real step)
 {
 	if (isBlind(engine)) return false;
-	if (isOneOf<CourseRunner>(engine)) return static_cast<const CourseRunner&>(engine).isDue(time, step);
+	if (const ActsIn acts = actsOf(engine)) return acts(engine, time, step);
 	const auto* periodic = isRunnerOrRecorder(engine) ? dynamic_cast<const PeriodicEngine*>(&engine) : nullptr;
 	if (!periodic) return true;
 	const PeriodicEngine& p = *periodic;
@@ -106,7 +92,7 @@ bool isTooLate(const Scene& scene, const Engine& engine)
 		if (before.dead) continue;
 		if (takesTurns(before)) return false;
 		// of others it cannot be told afterwards whether they have acted
-		if (!isBlind(before) && !dynamic_cast<const PeriodicEngine*>(&before) && !isOneOf<CourseRunner>(before))
+		if (!isBlind(before) && !dynamic_cast<const PeriodicEngine*>(&before) && !actsOf(before))
 			return true;
 	}
 	return false;

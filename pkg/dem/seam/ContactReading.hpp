@@ -5,9 +5,9 @@
 // (seam/ResidentMake.cpp).
 #pragma once
 
-#include "../NscdPhys.hpp"
-#include "../SlipSurfacePhys.hpp"
-#include "../Segment.hpp"
+#include "../materials/NscdPhys.hpp"
+#include "../materials/SlipSurfacePhys.hpp"
+#include "../walls/Segment.hpp"
 #include <contact/plane/bond.hpp>
 #include <pkg/dem/ScGeom.hpp>
 

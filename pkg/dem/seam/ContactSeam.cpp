@@ -1,10 +1,10 @@
 #include "ContactSeam.hpp"
 #include "Prefetch.hpp"
-#include "../PlaneCheck.hpp"
-#include "../Refusal.hpp"
-#include "../SceneCheck.hpp"
+#include "../checks/PlaneCheck.hpp"
+#include "../checks/Refusal.hpp"
+#include "../checks/SceneCheck.hpp"
 #include <algorithm>
-#include <contact/law.hpp>
+#include <contact/plane/law.hpp>
 #include <contact/plane/bond.hpp>
 #include <contact/plane/disk_contact.hpp>
 #include <pkg/dem/ScGeom.hpp>
@@ -17,10 +17,6 @@ using contact::Impulse;
 using contact::Twist;
 
 namespace {
-	constexpr Real unseen = 0.005; // ℓ; what a contact left out of the solve may overlap without being recalled
-
-	constexpr int mostRecalls = 4; // solves of a step after which all contacts left out are taken in
-
 	[[noreturn]] void refuse(const Body& body, const string& why, const string& remedy)
 	{
 		throw std::runtime_error(
@@ -358,64 +354,6 @@ bool ContactSeam::mustBeSolved(const Reading& reading) const
 	const Real closing = std::min(
 	        Real(0), contact::relativeVelocity(c, problem.freeVelocity[c.i], problem.freeVelocity[c.j]).n);
 	return reading.gap + 1.2 * relaxation.step * closing <= widest;
-}
-
-/// A body that is hit in the step may reach others that nothing approached before.
-size_t ContactSeam::recall()
-{
-	const auto gapAfter = [this](size_t k) {
-		const Contact& c = leftContacts[k];
-		return gapOf(c, readingOf(leftLinks[k]))
-		        + relaxation.step
-		        * contact::relativeVelocity(c, problem.velocities[c.i], problem.velocities[c.j]).n;
-	};
-	bool needed = false;
-	for (size_t k = 0; k < leftLinks.size() && !needed; ++k)
-		needed = gapAfter(k) < -unseen * leftContacts[k].length;
-	if (!needed) return 0;
-	++recalls;
-	std::vector<size_t> taken;
-	for (size_t k = 0; k < leftLinks.size(); ++k)
-		if (recalls > mostRecalls || gapAfter(k) < 0) taken.push_back(k);
-	takeIn(taken);
-	return taken.size();
-}
-
-/// Takes contacts that were left out into the solve, into the order of ids, from the back.
-void ContactSeam::takeIn(const std::vector<size_t>& taken)
-{
-	const auto key = [](const Contact& c) { return std::pair(std::min(c.i, c.j), std::max(c.i, c.j)); };
-	size_t     old = links.size(), b = taken.size(), at = old + b;
-	links.resize(at);
-	problem.contacts.resize(at);
-	problem.impulses.resize(at);
-	warmStart.resize(at);
-	while (b > 0) {
-		--at;
-		if (old > 0 && key(problem.contacts[old - 1]) > key(leftContacts[taken[b - 1]])) {
-			--old;
-			links[at]            = links[old];
-			problem.contacts[at] = problem.contacts[old];
-			problem.impulses[at] = problem.impulses[old];
-			warmStart[at]        = warmStart[old];
-		} else {
-			--b;
-			links[at]            = leftLinks[taken[b]];
-			problem.contacts[at] = leftContacts[taken[b]];
-			problem.impulses[at] = warmStart[at] = {};
-		}
-	}
-	size_t left = 0;
-	for (size_t k = 0, next = 0; k < leftLinks.size(); ++k) {
-		if (next < taken.size() && taken[next] == k) {
-			++next;
-			continue;
-		}
-		leftLinks[left]      = leftLinks[k];
-		leftContacts[left++] = leftContacts[k];
-	}
-	leftLinks.resize(left);
-	leftContacts.resize(left);
 }
 
 } // namespace yade::nscd

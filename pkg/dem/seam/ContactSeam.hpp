@@ -6,15 +6,15 @@
 
 #include "GivenMotion.hpp"
 #include "Resident.hpp"
-#include <contact/impact_sequence.hpp>
+#include <contact/plane/impact_sequence.hpp>
 #include <contact/plane/rigid_clusters.hpp>
-#include <contact/solver.hpp>
+#include <contact/plane/solver.hpp>
 #include <algorithm>
 #include <core/Scene.hpp>
 
 namespace yade::nscd {
 
-/// How errors of position are dealt with, see contact/law.hpp and contact/solver.hpp.
+/// How errors of position are dealt with, see contact/plane/law.hpp and contact/plane/solver.hpp.
 struct Relaxation {
 	Real step; // h [s]
 	Real rate; // κ, share of an overlap or bond error that one step takes back
@@ -77,7 +77,7 @@ public:
 	void
 	gather(Scene& scene, Resident& resident, const Vector3r& gravity, const Relaxation& relaxation, int threads);
 	/// Before the solve: takes the impacts that follow from impacts one after the other, `most` of one body; returns how many. The solve then has the velocities they
-	/// leave, and bodies are displaced so that each has come its way at the step's end (contact/impact_sequence.hpp).
+	/// leave, and bodies are displaced so that each has come its way at the step's end (contact/plane/impact_sequence.hpp).
 	int followImpacts(int most);
 	/// Bodies that had more.
 	int overrun() const { return followed ? sequence.overrun : 0; }

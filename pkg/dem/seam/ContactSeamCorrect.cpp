@@ -1,6 +1,6 @@
 // Errors of position, overlaps and what bonds have moved without having yielded, taken back by displacements after the solve of a step: what they are, and what they
 // do to bodies; and clusters of bonded bodies, which are turned as one so that no such error arises.
-// The equations stand in contact/solver.hpp (correctPositions), contact/plane/rigid_clusters.hpp and doc/theory/stepping.rst.
+// The equations stand in contact/plane/solver.hpp (correctPositions), contact/plane/rigid_clusters.hpp and doc/theory/stepping.rst.
 #include "ContactSeam.hpp"
 #include "Prefetch.hpp"
 #include <algorithm>

@@ -2,7 +2,7 @@
 // other, so the solve finds nothing there. What the law says of a given motion is the reaction (law.hpp, impulseOfGivenMotion); doc/theory/stepping.rst says why.
 #include "ContactSeam.hpp"
 #include <algorithm>
-#include <contact/law.hpp>
+#include <contact/plane/law.hpp>
 
 namespace yade::nscd {
 

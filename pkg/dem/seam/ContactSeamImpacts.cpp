@@ -1,5 +1,5 @@
 // Impacts that follow from impacts in a step: who may meet, and what the step's solve, positions and balance have of them. The rule and its equations
-// stand in contact/impact_sequence.hpp and doc/theory/stepping.rst.
+// stand in contact/plane/impact_sequence.hpp and doc/theory/stepping.rst.
 #include "ContactSeam.hpp"
 #include <contact/plane/disk_contact.hpp>
 

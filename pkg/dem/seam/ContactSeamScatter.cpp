@@ -3,7 +3,7 @@
 #include "Prefetch.hpp"
 #include <algorithm>
 #include <atomic>
-#include <contact/law.hpp>
+#include <contact/plane/law.hpp>
 #include <contact/plane/bond.hpp>
 
 namespace yade::nscd {

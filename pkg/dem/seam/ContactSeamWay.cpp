@@ -5,9 +5,9 @@
 // Where w > 1 the paths of the step are looked at: what they cross without a contact is refused before anything is moved, and the rest is told of. Without
 // given bodies c is the middle of all velocities, since disks that fly together cannot meet.
 #include "ContactSeam.hpp"
-#include "../Arc.hpp"
-#include "../Refusal.hpp"
-#include "../YadeFeatures.hpp"
+#include "../walls/Arc.hpp"
+#include "../checks/Refusal.hpp"
+#include "../checks/YadeFeatures.hpp"
 #include <core/Aabb.hpp>
 #include <neighbours/disk_grid.hpp>
 #include <pkg/common/Collider.hpp>

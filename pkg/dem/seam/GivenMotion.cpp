@@ -1,6 +1,6 @@
 #include "GivenMotion.hpp"
-#include "../Refusal.hpp"
-#include "../SameBody.hpp"
+#include "../checks/Refusal.hpp"
+#include "SameBody.hpp"
 #include "Audience.hpp"
 #include <algorithm>
 

@@ -1,6 +1,6 @@
 // How the arrays get what YADE's objects have, and how contacts come and go; what is written back: ResidentShow.cpp.
 #include "Resident.hpp"
-#include "../StageClock.hpp"
+#include "StageClock.hpp"
 #include "Audience.hpp"
 #include "Prefetch.hpp"
 #include <map>

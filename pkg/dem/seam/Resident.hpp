@@ -20,12 +20,12 @@
 // O.forces stays where forces are added up, in every step: it is not kept twice.
 #pragma once
 
-#include "../PythonMade.hpp"
+#include "PythonMade.hpp"
 #include "BodyReading.hpp"
 #include "ContactReading.hpp"
 #include <atomic>
 #include <boost/weak_ptr.hpp>
-#include <contact/problem.hpp>
+#include <contact/plane/problem.hpp>
 #include <functional>
 #include <map>
 #include <memory>

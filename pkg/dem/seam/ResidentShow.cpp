@@ -1,6 +1,6 @@
 // How YADE's objects get what the arrays have, all of them or some.
-#include "../SameBody.hpp"
-#include "../StageClock.hpp"
+#include "SameBody.hpp"
+#include "StageClock.hpp"
 #include "PlaneMotion.hpp"
 #include "Prefetch.hpp"
 #include "Resident.hpp"

@@ -6,8 +6,8 @@
 // growParticles multiplies by s³ and s⁵ whatever the body is, and who sets shape.radius alone leaves both as they were: these two are mended. Other numbers somebody
 // has chosen, and they stay. A contact's length follows, with what is in proportion to it, and a bond's marks stay on the rims.
 // Units: m, kg, kg m², per metre of thickness for disks.
-#include "../BondEllipse.hpp"
-#include "../Refusal.hpp"
+#include "../materials/BondEllipse.hpp"
+#include "../checks/Refusal.hpp"
 #include "Resident.hpp"
 #include <lib/high-precision/Constants.hpp>
 #include <pkg/common/Sphere.hpp>

@@ -1,7 +1,7 @@
 // An engine's turn: what it takes when it begins, and to whom it shows what it has done when it ends.
-#include "../Advance.hpp"
-#include "../PythonMade.hpp"
-#include "../StageClock.hpp"
+#include "Advance.hpp"
+#include "PythonMade.hpp"
+#include "StageClock.hpp"
 #include "Audience.hpp"
 #include "Resident.hpp"
 #include <core/Omega.hpp>

@@ -7,7 +7,7 @@
 // positive. Units: m.
 #pragma once
 
-#include "../Refusal.hpp"
+#include "../checks/Refusal.hpp"
 #include <core/Dispatching.hpp>
 #include <pkg/common/Box.hpp>
 #include <pkg/common/Facet.hpp>

@@ -10,7 +10,7 @@
 // facets have come, gone, moved or been changed. Those of different groupMask are not joined, nor what no sphere can touch (Body.bounded False).
 #pragma once
 
-#include "../PerScene.hpp"
+#include "../seam/PerScene.hpp"
 #include <atomic>
 #include <contact/space/nearest.hpp>
 #include <core/Scene.hpp>

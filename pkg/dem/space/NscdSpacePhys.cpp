@@ -1,5 +1,5 @@
 #include "NscdSpacePhys.hpp"
-#include "../Refusal.hpp"
+#include "../checks/Refusal.hpp"
 
 namespace yade {
 

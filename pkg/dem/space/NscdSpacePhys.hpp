@@ -5,7 +5,7 @@
 // Forces and torques act on the second body of the interaction; M_r is at right angles to the normal, M_n along it.
 #pragma once
 
-#include "../NscdPhys.hpp"
+#include "../materials/NscdPhys.hpp"
 #include <lib/high-precision/Constants.hpp>
 
 namespace yade {

@@ -1,7 +1,7 @@
 // Bonds of bodies in space: their marks, where they stand now, and what becomes of them in a step. Equations: contact/space/bond.hpp.
 #pragma once
 
-#include "../BondEllipse.hpp"
+#include "../materials/BondEllipse.hpp"
 #include "NscdSpacePhys.hpp"
 #include <contact/space/bond.hpp>
 

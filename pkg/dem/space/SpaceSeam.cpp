@@ -1,11 +1,11 @@
 #include "SpaceSeam.hpp"
 #include "Vectors.hpp"
-#include "../Arc.hpp"
-#include "../PlanarGridCollider.hpp"
-#include "../PlanarNewtonIntegrator.hpp"
-#include "../Gravity.hpp"
-#include "../Refusal.hpp"
-#include "../SceneCheck.hpp"
+#include "../walls/Arc.hpp"
+#include "../engines/PlanarGridCollider.hpp"
+#include "../engines/PlanarNewtonIntegrator.hpp"
+#include "../engines/Gravity.hpp"
+#include "../checks/Refusal.hpp"
+#include "../checks/SceneCheck.hpp"
 #include "../seam/Prefetch.hpp"
 #include <algorithm>
 #include <contact/space/bond.hpp>

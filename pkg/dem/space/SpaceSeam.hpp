@@ -3,7 +3,7 @@
 // The order of contacts is that of body ids, and each runs from the lower id to the higher, or from a wall to the sphere, whatever order YADE keeps them in: the same
 // scene gives the same bits after loading and on any number of threads.
 // Bodies: spheres, which move freely or along some axes of the world; and bodies of any shape whose motion is given, or which move without turning (a plate under a load).
-// Errors of position (contact/solver.hpp): an overlap at the end of the step is taken back by the share κ, by displacements that leave no velocity behind.
+// Errors of position (contact/plane/solver.hpp): an overlap at the end of the step is taken back by the share κ, by displacements that leave no velocity behind.
 #pragma once
 
 #include "../seam/ContactSeam.hpp"

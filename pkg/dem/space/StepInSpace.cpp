@@ -1,5 +1,5 @@
 // The step of ContactDynamicsEngine where bodies move in space: gather, solve, correct, scatter, as in the plane.
-#include "../ContactDynamicsEngine.hpp"
+#include "../engines/ContactDynamicsEngine.hpp"
 #include <contact/space/residual.hpp>
 #include <sstream>
 

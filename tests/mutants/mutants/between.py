@@ -1,22 +1,22 @@
 """What scripts and other engines do between two steps: written contacts, walls moved by their positions, sizes, what bodies bring; and the refusals of what leaves the plane."""
 from mutant import mutant
 
-PHYS, PHYS_H, READING, RESIDENT = "pkg/dem/NscdPhys.cpp", "pkg/dem/NscdPhys.hpp", "pkg/dem/seam/ContactReading.hpp", "pkg/dem/seam/Resident.cpp"
+PHYS, PHYS_H, READING, RESIDENT = "pkg/dem/materials/NscdPhys.cpp", "pkg/dem/materials/NscdPhys.hpp", "pkg/dem/seam/ContactReading.hpp", "pkg/dem/seam/Resident.cpp"
 GIVEN, SIZES, SCATTER, SEAM = "pkg/dem/seam/GivenMotion.cpp", "pkg/dem/seam/ResidentSizes.cpp", "pkg/dem/seam/ContactSeamScatter.cpp", "pkg/dem/seam/ContactSeam.cpp"
-ENGINE, PLANE, CHECK, MAKE = "pkg/dem/ContactDynamicsEngine.cpp", "pkg/dem/PlaneCheck.cpp", "pkg/dem/SceneCheck.cpp", "pkg/dem/seam/ResidentMake.cpp"
+ENGINE, PLANE, CHECK, MAKE = "pkg/dem/engines/ContactDynamicsEngine.cpp", "pkg/dem/checks/PlaneCheck.cpp", "pkg/dem/checks/SceneCheck.cpp", "pkg/dem/seam/ResidentMake.cpp"
 WRITTEN, MOTION, SIZE, BROUGHT = "test_written_contacts.py", "test_given_motion.py", "test_sizes.py", "test_brought_energy.py"
 
 MUTANTS = (
     # ---- what random changes passed
     mutant("check-reset", CHECK, "scene.forces.lastReset < scene.iter", "scene.forces.lastReset > scene.iter", "forces that nobody resets act again",
            "test_refusals.py::test_lists_of_engines_that_would_go_wrong"),
-    mutant("check-second", CHECK, "std::find_if(first + 1, bodies.end(), isDisk)", "std::find_if(first + 2, bodies.end(), isDisk)", "two disks alone need no functor",
+    mutant("check-second", "pkg/dem/checks/ContactCheck.cpp", "std::find_if(first + 1, bodies.end(), isDisk)", "std::find_if(first + 2, bodies.end(), isDisk)", "two disks alone need no functor",
            "test_refusals.py::test_two_disks_need_a_functor"),
     mutant("space-from-lower", "pkg/dem/space/SpaceSeam.cpp", "bodies[id1].radius > 0 && bodies[id2].radius > 0", "bodies[id1].radius > 0 && bodies[id2].radius < 0", "contacts of spheres run from the higher id", "test_space.py::test_the_problem_of_a_step_is_written_and_solved_again"),
     mutant("space-breaks", "pkg/dem/space/SpaceSeamScatter.cpp", "broken.insert(broken.end(), part.breaks.begin(), part.breaks.end());", "broken = part.breaks;", "breaks of all but the last part of the contacts are forgotten", "test_space.py::test_sums_over_many_contacts_are_the_same_on_any_number_of_threads"),
     mutant("space-parts", "pkg/dem/space/SpaceSeamScatter.cpp", "std::vector<Sums> parts(ofContacts + ofBodies);", "std::vector<Sums> parts(ofContacts + ofBodies); const size_t sumChunk = 2048 / threads;", "sums in space depend on the number of threads", "test_space.py::test_sums_over_many_contacts_are_the_same_on_any_number_of_threads"),
     mutant("space-held", "pkg/dem/space/SpaceSeamScatter.cpp", "rows.n < 0 && held", "held", "a bond that is pressed loses nothing", "test_space.py::test_a_bonded_tower_that_lands_loses_all_it_had_by_the_impact"),
-    mutant("field-dry", "pkg/dem/PorePressureEngine.cpp", "!(water.pressure > 0)", "!(water.pressure >= 0)", "ground without pressure is wet", "test_pressure_field.py::test_ground_without_pressure_is_dry"),
+    mutant("field-dry", "pkg/dem/engines/PorePressureEngine.cpp", "!(water.pressure > 0)", "!(water.pressure >= 0)", "ground without pressure is wet", "test_pressure_field.py::test_ground_without_pressure_is_dry"),
     # ---- written contacts
     mutant("written-residual", PHYS, "friction = residualFriction = tangensOfFrictionAngle", "friction = tangensOfFrictionAngle",
            "a written friction is that of bonds alone", WRITTEN + "::test_set_contact_friction_counts_from_the_next_step_on"),

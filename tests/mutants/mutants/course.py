@@ -2,7 +2,7 @@
 from mutant import mutant
 
 PY = "py/nonsmooth/"
-WALLS = "pkg/dem/WallForceEngine.cpp"
+WALLS = "pkg/dem/engines/WallForceEngine.cpp"
 COURSE, RESULTS, TABLES = (PY + name for name in ("studies/slope/experiment.py", "studies/slope/results.py", "world/tables.py"))
 MONITOR, ATTACHED = PY + "studies/slope/monitoring.py", PY + "studies/slope/attached.py"
 SERIES, BREAKS = (PY + f"records/{name}.py" for name in ("series", "breaks"))

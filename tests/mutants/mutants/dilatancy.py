@@ -2,7 +2,7 @@
 from mutant import mutant
 
 PACKING, RULE, RUN = "py/nonsmooth/measure/local_packing.py", "py/nonsmooth/course/dilatancy.py", "py/nonsmooth/studies/slope/water_release.py"
-ENGINE, SECTION = "pkg/dem/PorePressureEngine.cpp", "py/nonsmooth/model/section/"
+ENGINE, SECTION = "pkg/dem/engines/PorePressureEngine.cpp", "py/nonsmooth/model/section/"
 SHARES, RULES, RUNS = "plain:test_local_packing.py", "plain:test_dilatancy.py", "test_water_release.py"
 
 MUTANTS = (

@@ -1,20 +1,20 @@
 """Engines and the seam between YADE and the solver, soft walls included: C++ with YADE, judged by pytest."""
 from mutant import mutant
 
-SEAM, SCATTER, CORRECT, ENGINE = "pkg/dem/seam/ContactSeam.cpp", "pkg/dem/seam/ContactSeamScatter.cpp", "pkg/dem/seam/ContactSeamCorrect.cpp", "pkg/dem/ContactDynamicsEngine.cpp"
-REQUESTS, WARNINGS = "pkg/dem/ContactDynamicsRequests.cpp", "pkg/dem/ContactDynamicsWarnings.cpp"
-STEPPER, WATER, NEWTON = "pkg/dem/NonsmoothTimeStepper.cpp", "pkg/dem/PorePressureEngine.cpp", "pkg/dem/PlanarNewtonIntegrator.cpp"
+SEAM, SCATTER, CORRECT, ENGINE = "pkg/dem/seam/ContactSeam.cpp", "pkg/dem/seam/ContactSeamScatter.cpp", "pkg/dem/seam/ContactSeamCorrect.cpp", "pkg/dem/engines/ContactDynamicsEngine.cpp"
+REQUESTS, WARNINGS = "pkg/dem/engines/ContactDynamicsRequests.cpp", "pkg/dem/engines/ContactDynamicsWarnings.cpp"
+STEPPER, WATER, NEWTON = "pkg/dem/engines/NonsmoothTimeStepper.cpp", "pkg/dem/engines/PorePressureEngine.cpp", "pkg/dem/engines/PlanarNewtonIntegrator.cpp"
 TO_PLANE, GIVEN = "pkg/dem/seam/PlaneMotion.hpp", "pkg/dem/seam/ContactSeamGiven.cpp"
 RESIDENT, SHOW, MAKE = "pkg/dem/seam/Resident.cpp", "pkg/dem/seam/ResidentShow.cpp", "pkg/dem/seam/ResidentMake.cpp"
 COME, BARE_BONDS = "test_bare_contacts.py::test_contacts_that_come_and_go_are_the_same_once_they_are_seen", "test_bare_contacts.py::test_bonds_of_contacts_that_nobody_has_seen"
 AUDIENCE, READING = "pkg/dem/seam/Audience.cpp", "pkg/dem/seam/ContactReading.hpp"
 SAME, OWN, LOOKS = "test_view.py::test_all_that_python_can_read_is_the_same_in_every_way", "test_view.py::test_interactions_are_what_yades_own_loop_makes_of_them", "test_view.py::test_engines_that_look_now_and_then_see_the_truth"
-COLLIDER, COLLIDER_H, LOOP = "pkg/dem/PlanarGridCollider.cpp", "pkg/dem/PlanarGridCollider.hpp", "pkg/dem/NscdInteractionLoop.cpp"
+COLLIDER, COLLIDER_H, LOOP = "pkg/dem/engines/PlanarGridCollider.cpp", "pkg/dem/engines/PlanarGridCollider.hpp", "pkg/dem/engines/NscdInteractionLoop.cpp"
 WAY, WAYS = "pkg/dem/seam/ContactSeamWay.cpp", "test_long_ways.py"
-CLOCK, ADVANCE, GRAVITY = "pkg/dem/StageClock.hpp", "pkg/dem/Advance.cpp", "pkg/dem/Gravity.cpp"
-PHYS, MAT, SEGMENT_H = "pkg/dem/NscdPhys.cpp", "pkg/dem/NscdMat.cpp", "pkg/dem/Segment.hpp"
-BONDS, BONDS_H, LAW_H = "pkg/dem/BondEllipse.cpp", "pkg/dem/BondEllipse.hpp", "pkg/dem/Law2_ScGeom_NscdPhys_SignoriniCoulomb.hpp"
-WALL, WALL_LAW, FOLLOWER = "pkg/dem/WallPhys.cpp", "pkg/dem/Law2_SegmentGeom_WallPhys_SlipWeakening.cpp", "pkg/dem/BondEllipseEngine.cpp"
+CLOCK, ADVANCE, GRAVITY = "pkg/dem/seam/StageClock.hpp", "pkg/dem/seam/Advance.cpp", "pkg/dem/engines/Gravity.cpp"
+PHYS, MAT, SEGMENT_H = "pkg/dem/materials/NscdPhys.cpp", "pkg/dem/materials/NscdMat.cpp", "pkg/dem/walls/Segment.hpp"
+BONDS, BONDS_H, LAW_H = "pkg/dem/materials/BondEllipse.cpp", "pkg/dem/materials/BondEllipse.hpp", "pkg/dem/materials/Law2_ScGeom_NscdPhys_SignoriniCoulomb.hpp"
+WALL, WALL_LAW, FOLLOWER = "pkg/dem/materials/WallPhys.cpp", "pkg/dem/materials/Law2_SegmentGeom_WallPhys_SlipWeakening.cpp", "pkg/dem/engines/BondEllipseEngine.cpp"
 
 MUTANTS = (
     # ---- seam: gather
@@ -23,7 +23,7 @@ MUTANTS = (
     mutant("gather-closing", SEAM, "reading.gap + 1.2 * relaxation.step * closing <= widest", "reading.gap - 1.2 * relaxation.step * closing <= widest",
            "a gap that closes is left out of the solve", "test_engine.py::test_fast_approach_is_solved_before_it_overlaps",
            "test_engine.py::test_gaps_that_stay_open_are_left_out"),
-    mutant("gather-recall", SEAM, "gapAfter(k) < -unseen * leftContacts[k].length", "gapAfter(k) < -leftContacts[k].length",
+    mutant("gather-recall", "pkg/dem/seam/ContactSeamRecall.cpp", "gapAfter(k) < -unseen * leftContacts[k].length", "gapAfter(k) < -leftContacts[k].length",
            "contacts left out are recalled a diameter too late", "test_engine.py::test_who_is_hit_hits_the_next_without_overlap"),
     mutant("gather-lever", SEAM, "contact::plane::setDiskFrame(c, i, j, nx, ny, radius[i], radius[j], reading.gap)",
            "contact::plane::setDiskFrame(c, i, j, nx, ny, radius[j], radius[i], reading.gap)", "the levers of two disks are exchanged",
@@ -67,7 +67,7 @@ MUTANTS = (
            "test_closing_bonds.py::test_what_a_bond_was_stretched_beyond_its_length_is_taken_back"),
     mutant("bond-closing-lives", LOOP, "r.closes ? plane::ofClosing(gone) : gone", "gone", "a bond that closes breaks where it has left its ellipse so",
            "test_closing_bonds.py::test_a_pressed_bond_closes_in_free_flight_and_then_bears"),
-    mutant("bond-closing-weaker", "pkg/dem/NscdPhys.cpp", "a.bondsClose || b.bondsClose", "a.bondsClose && b.bondsClose", "bonds close where both materials say so",
+    mutant("bond-closing-weaker", "pkg/dem/materials/NscdPhys.cpp", "a.bondsClose || b.bondsClose", "a.bondsClose && b.bondsClose", "bonds close where both materials say so",
            "test_closing_bonds.py::test_one_of_two_particles_is_enough_and_a_wall_decides_alone"),
     mutant("scatter-overlap", SCATTER, "std::max(Real(0), -r.gap) / c.length", "std::max(Real(0), -r.gap)", "overlaps are in metres and not in diameters",
            "test_reactions.py::test_figures_of_a_step_by_hand"),
@@ -148,9 +148,9 @@ MUTANTS = (
            "test_pore_pressure.py::test_table_of_heights_is_linear_between_and_constant_outside"),
     mutant("water-plane", WATER, "(place - planePoint).dot(normal) >= height", "place.dot(normal) >= height", "the plane goes through the origin",
            "test_pore_pressure.py::test_plane_may_stand_anywhere_and_walls_stay_dry"),
-    mutant("water-forgets", "pkg/dem/PorePressureEngine.hpp", "everWet.clear();", ";", "what was wet before ways are counted anew is released",
+    mutant("water-forgets", "pkg/dem/engines/PorePressureEngine.hpp", "everWet.clear();", ";", "what was wet before ways are counted anew is released",
            "test_pore_pressure.py::test_what_was_wet_is_forgotten_with_the_ways"),
-    mutant("water-dry-release", "pkg/dem/PorePressureEngine.hpp", "wasWet(id) && drained(id)", "drained(id)",
+    mutant("water-dry-release", "pkg/dem/engines/PorePressureEngine.hpp", "wasWet(id) && drained(id)", "drained(id)",
            "disks that never were wet are released", "test_pore_pressure.py::test_released_are_those_alone_that_were_wet"),
     mutant("water-ever", WATER, "wet[id] = everWet[id] = 1;", "wet[id] = 1;", "nobody knows who was wet",
            "test_pore_pressure.py::test_release_is_for_good_after_the_distance_downslope"),
@@ -164,26 +164,26 @@ MUTANTS = (
            "test_pressure_field.py::test_still_water_carries_the_displaced_weight"),
     mutant("field-suction", WATER, "!(water.pressure > 0)", "!water.inside", "suction pulls",
            "test_pressure_field.py::test_still_water_carries_the_displaced_weight"),
-    mutant("field-time", "pkg/dem/PorePressureField.cpp", "(time - times[before])", "(times[after] - time)", "states come in the other order",
+    mutant("field-time", "pkg/dem/engines/PorePressureField.cpp", "(time - times[before])", "(times[after] - time)", "states come in the other order",
            "test_pressure_field.py::test_states_are_interpolated_in_time_and_held_outside"),
-    mutant("field-gradient", "pkg/dem/TriangleField.cpp", "(toC * (b.x - a.x) - toB * (c.x - a.x)) / area", "(toC * (b.x - a.x) + toB * (c.x - a.x)) / area",
+    mutant("field-gradient", "pkg/dem/engines/TriangleField.cpp", "(toC * (b.x - a.x) - toB * (c.x - a.x)) / area", "(toC * (b.x - a.x) + toB * (c.x - a.x)) / area",
            "the gradient upwards takes the sum", "test_pressure_field.py::test_a_triangles_gradient_is_that_of_its_three_nodes"),
-    mutant("field-edges", "pkg/dem/TriangleField.cpp", "s[0] >= -onEdge && s[1] >= -onEdge && s[2] >= -onEdge", "s[0] >= -onEdge && s[1] >= -onEdge",
+    mutant("field-edges", "pkg/dem/engines/TriangleField.cpp", "s[0] >= -onEdge && s[1] >= -onEdge && s[2] >= -onEdge", "s[0] >= -onEdge && s[1] >= -onEdge",
            "points beyond the third side are inside", "test_pressure_field.py::test_holes_and_gaps_between_triangles_are_outside"),
-    mutant("field-made-anew", "pkg/dem/PorePressureField.cpp", "if (!isMade) make();", "if (present.empty()) make();", "lists that are set later do not act",
+    mutant("field-made-anew", "pkg/dem/engines/PorePressureField.cpp", "if (!isMade) make();", "if (present.empty()) make();", "lists that are set later do not act",
            "test_pressure_field.py::test_lists_that_are_set_later_act"),
     # ---- ground motion
-    mutant("ground-mean", "pkg/dem/GroundMotionEngine.cpp", "record().mean(now, next)", "record().acceleration(now)", "the record is sampled and not averaged",
+    mutant("ground-mean", "pkg/dem/engines/GroundMotionEngine.cpp", "record().mean(now, next)", "record().acceleration(now)", "the record is sampled and not averaged",
            "test_shaken_scenes.py::test_impulses_of_steps_sum_up_to_the_integral"),
-    mutant("ground-sign", "pkg/dem/GroundMotionEngine.cpp", "-b.mass * acceleration", "b.mass * acceleration", "disks go with the ground in its own frame",
+    mutant("ground-sign", "pkg/dem/engines/GroundMotionEngine.cpp", "-b.mass * acceleration", "b.mass * acceleration", "disks go with the ground in its own frame",
            "test_shaken_scenes.py::test_moving_walls_are_the_moving_frame"),
-    mutant("ground-velocity", "pkg/dem/GroundMotionEngine.cpp", "made.velocity(next)", "made.velocity(now)", "walls have the velocity of the step's begin",
+    mutant("ground-velocity", "pkg/dem/engines/GroundMotionEngine.cpp", "made.velocity(next)", "made.velocity(now)", "walls have the velocity of the step's begin",
            "test_shaken_scenes.py::test_moving_walls_are_the_moving_frame"),
-    mutant("ground-displacement", "pkg/dem/AccelerationRecord.cpp", "(2 * a[k - 1] + a[k]) / 6", "(a[k - 1] + 2 * a[k]) / 6", "the displacement takes the end's acceleration twice",
+    mutant("ground-displacement", "pkg/dem/engines/AccelerationRecord.cpp", "(2 * a[k - 1] + a[k]) / 6", "(a[k - 1] + 2 * a[k]) / 6", "the displacement takes the end's acceleration twice",
            "test_shaken_scenes.py::test_velocity_and_displacement_are_the_records_integrals"),
-    mutant("ground-drift", "pkg/dem/AccelerationRecord.cpp", "reached[axis][k] + (k + 1 < (long)at.size() ? gained(axis, k, time) : 0)", "k + 1 < (long)at.size() ? reached[axis][k] + gained(axis, k, time) : 0", "after its record the ground stands",
+    mutant("ground-drift", "pkg/dem/engines/AccelerationRecord.cpp", "reached[axis][k] + (k + 1 < (long)at.size() ? gained(axis, k, time) : 0)", "k + 1 < (long)at.size() ? reached[axis][k] + gained(axis, k, time) : 0", "after its record the ground stands",
            "test_shaken_scenes.py::test_velocity_and_displacement_are_the_records_integrals"),
-    mutant("ground-ids", "pkg/dem/GroundMotionEngine.cpp", "ids.empty() && acceleration != Vector3r::Zero()", "acceleration != Vector3r::Zero()", "walls move and disks are pushed as well",
+    mutant("ground-ids", "pkg/dem/engines/GroundMotionEngine.cpp", "ids.empty() && acceleration != Vector3r::Zero()", "acceleration != Vector3r::Zero()", "walls move and disks are pushed as well",
            "test_shaken_scenes.py::test_moving_walls_are_the_moving_frame"),
     # ---- stages, many steps, gravity that grows
     mutant("clock-next", CLOCK, "begin = now;", ";", "a stage has the time of those before it as well", "test_engine.py::test_timing_counts_the_engine"),
@@ -222,11 +222,11 @@ MUTANTS = (
            "test_engine.py::test_own_loop_and_integrator_have_the_bits_of_yades"),
     mutant("collider-foresight", COLLIDER_H, "foresight * scene->dt * speed", "0.1 * scene->dt * speed", "fast disks get their contacts too late",
            "test_collider.py::test_far_disks_have_contacts_while_they_are_fast", "test_collider.py::test_leaving_far_slow_disks_out_changes_no_bit"),
-    mutant("collider-mask", COLLIDER, "nscd::mayCollide(*this, *Body::byId(a, scene), *Body::byId(b, scene))", "true", "masks are not heeded",
+    mutant("collider-mask", "pkg/dem/engines/PlanarGridColliderSearch.cpp", "nscd::mayCollide(*this, *Body::byId(a, scene), *Body::byId(b, scene))", "true", "masks are not heeded",
            "test_collider.py::test_masks_are_heeded"),
-    mutant("collider-walls", COLLIDER, "2 * factor - 1", "1", "walls get their contacts too late", "test_collider.py::test_potential_interactions_exist_with_walls_alone",
+    mutant("collider-walls", "pkg/dem/engines/PlanarGridCollider.hpp", "2 * factor - 1", "1", "walls get their contacts too late", "test_collider.py::test_potential_interactions_exist_with_walls_alone",
            "test_collider.py::test_every_pair_of_colliders_and_loops_has_the_same_bits"),
-    mutant("loop-shear", "pkg/dem/NscdInteractionLoopFunctors.cpp", "geom.shearInc = Vector3r::Zero();", ";", "contacts of disks keep the shear increment with which they began",
+    mutant("loop-shear", "pkg/dem/engines/NscdInteractionLoopFunctors.cpp", "geom.shearInc = Vector3r::Zero();", ";", "contacts of disks keep the shear increment with which they began",
            "test_engine.py::test_what_soft_laws_need_of_a_contact_of_disks_is_zero"),
     mutant("loop-erase", LOOP, "(ours.collider && !ours.collider->wants(r.first, r.second, p1.radius + p2.radius + r.gap))", "false", "contacts of slow disks that have parted stay",
            "test_collider.py::test_leaving_far_slow_disks_out_changes_no_bit", "test_collider.py::test_far_disks_have_contacts_while_they_are_fast"),
@@ -254,13 +254,13 @@ MUTANTS = (
            "a contact across an interface is as strong as its stronger disk", "test_interfaces.py::test_a_contact_is_as_weak_as_its_weaker_disk"),
     mutant("interface-bonds", PHYS, "law->bondsToAll", "true", "an interface is always bonded",
            "test_interfaces.py::test_a_block_slides_at_the_angle_of_its_interfaces_law"),
-    mutant("runner-due", "pkg/dem/CourseRunner.hpp", "time < nextTime - 0.5 * step", "time < nextTime + 0.5 * step", "rows by O.run() are a step late",
+    mutant("runner-due", "pkg/dem/engines/CourseRunner.hpp", "time < nextTime - 0.5 * step", "time < nextTime + 0.5 * step", "rows by O.run() are a step late",
            "test_course_runner.py::test_o_run_goes_through_the_course_with_the_bits_of_the_script"),
-    mutant("runner-between", "pkg/dem/CourseRunner.cpp", "scene.subStep = -1;", ";", "a scene saved by a row is in the middle of a step",
+    mutant("runner-between", "pkg/dem/engines/CourseRunner.cpp", "scene.subStep = -1;", ";", "a scene saved by a row is in the middle of a step",
            "test_course_runner.py::test_a_run_by_engine_is_resumed_by_either"),
-    mutant("runner-looks", "pkg/dem/seam/Audience.cpp", "return static_cast<const CourseRunner&>(engine).isDue(time, step);", "return false;",
+    mutant("runner-looks", "pkg/dem/engines/CourseRunner.cpp", "return static_cast<const CourseRunner&>(engine).isDue(time, step);", "return false;",
            "a row looks at a view that is behind", "test_course_runner.py::test_a_command_sees_the_scene_between_two_steps"),
-    mutant("strip-way", "pkg/contact/strip_cut.cpp", "to < from ? -1.0 : 1.0", "1.0", "strips begin on the left in a mirrored scene too",
+    mutant("strip-way", "pkg/contact/core/strip_cut.cpp", "to < from ? -1.0 : 1.0", "1.0", "strips begin on the left in a mirrored scene too",
            "test_any_slope.py::test_strips_of_a_mirrored_slope_are_mirrored"),
     mutant("bond-axes", "pkg/contact/plane/bond.hpp", "d.tangential / zone.tangential", "d.tangential / zone.normal", "the ellipse of a bond is a circle",
            "test_bonds.py::test_a_bond_holds_inside_its_ellipse"),
@@ -286,9 +286,9 @@ MUTANTS = (
            "test_view.py::test_a_loaded_scene_goes_on_in_the_arrays_with_the_same_bits", "test_bonds.py::test_bond_opened_in_tension_keeps_its_new_length"),
     mutant("take-slots", RESIDENT, "pack(bonds);", ";", "contacts are put in order and get each other's bonds",
            SAME, OWN),
-    mutant("take-walls", "pkg/dem/NscdInteractionLoopFunctors.cpp", "resident.showBodies(looked);", ";", "walls see disks where they were when somebody looked", SAME, OWN),
+    mutant("take-walls", "pkg/dem/engines/NscdInteractionLoopFunctors.cpp", "resident.showBodies(looked);", ";", "walls see disks where they were when somebody looked", SAME, OWN),
     mutant("take-beyond", SEGMENT_H, "segment.halfLength + reach", "0.5 * segment.halfLength", "disks above the ends of a wall's segments are not seen to come", "test_collider.py::test_every_pair_of_colliders_and_loops_has_the_same_bits"),
-    mutant("take-followed", COLLIDER, "eraseIfUnreal(sides[pair.side].id, pair.disk);", ";", "disks that have left a wall keep their potential interactions with it",
+    mutant("take-followed", "pkg/dem/engines/PlanarGridColliderSearch.cpp", "eraseIfUnreal(sides[pair.side].id, pair.disk);", ";", "disks that have left a wall keep their potential interactions with it",
            "test_collider.py::test_potential_interactions_with_walls_end_when_disks_have_left"),
     mutant("take-breaks", SCATTER, "parts[part].anyBroken()", "(part > 0 && parts[part].anyBroken())", "breaks among the first contacts are not recorded",
            "test_bonds.py"),
@@ -298,10 +298,10 @@ MUTANTS = (
            "test_advance.py::test_bodies_that_are_asked_for_are_up_to_date_and_what_is_made_of_them_counts"),
     mutant("alone-exception", ADVANCE, "some && std::uncaught_exceptions() == exceptions", "some.has_value()", "an exception leaves bodies as they were at the last look",
            "test_advance.py::test_a_signal_that_raises_leaves_all_up_to_date"),
-    mutant("alone-erased", "pkg/dem/NscdInteractionLoop.cpp", "list.size() != resident.order.size() - resident.bare + resident.potential.size()", "false",
+    mutant("alone-erased", "pkg/dem/engines/NscdInteractionLoop.cpp", "list.size() != resident.order.size() - resident.bare + resident.potential.size()", "false",
            "the arrays go on with contacts that a script has taken out of the list", "test_advance.py::test_interactions_that_are_erased_meanwhile_end"),
     mutant("bare-made", SHOW, "if (look.makes) makeAll();", ";", "contacts that came while nobody looked are not seen later", "test_bare_contacts.py::test_what_nobody_asks_for_is_not_made"),
-    mutant("bare-unseen", "pkg/dem/NscdInteractionLoopProposed.cpp", "if (r.usable) taken[k] = Taken::Bare;", ";", "every contact gets an interaction at once", "test_bare_contacts.py::test_what_nobody_asks_for_is_not_made"),
+    mutant("bare-unseen", "pkg/dem/engines/NscdInteractionLoopProposed.cpp", "if (r.usable) taken[k] = Taken::Bare;", ";", "every contact gets an interaction at once", "test_bare_contacts.py::test_what_nobody_asks_for_is_not_made"),
     mutant("bare-born", MAKE, "interaction->iterBorn = born;", ";", "a contact is as old as the first look at it", COME),
     mutant("bare-order", MAKE, "readings[order[k].slot].interaction", "readings[order[contacts - 1 - k].slot].interaction",
            "O.interactions has another order than that of ids", "test_bare_contacts.py::test_what_nobody_asks_for_is_not_made"),
@@ -321,13 +321,13 @@ MUTANTS = (
            "test_bare_contacts.py::test_bodies_that_the_arrays_cannot_keep_get_interactions[leaves the plane]"),
     mutant("bare-table", MAKE, "take(r, contactPoint(r));", "take(r, Vector3r(0, 0, 0));", "the table puts contacts that nobody has seen into the origin",
            "test_bare_contacts.py::test_a_table_of_contacts_needs_no_interactions"),
-    mutant("materials-loop", "pkg/dem/NscdInteractionLoopFunctors.cpp", "!dynamic_cast<const NscdMat*>(body->material.get())", "false", "a body of another material is not named",
+    mutant("materials-loop", "pkg/dem/engines/NscdInteractionLoopFunctors.cpp", "!dynamic_cast<const NscdMat*>(body->material.get())", "false", "a body of another material is not named",
            "test_messages.py::test_a_body_that_touches_with_another_material"),
     mutant("materials-looked-at", SEAM, "materialsOf != resident->taken", "false", "another material is met when it touches",
            "test_messages.py::test_another_material_is_refused_before_it_touches"),
-    mutant("materials-functor", "pkg/dem/SceneCheck.cpp", "loop->physDispatcher->getFunctor2D(b->material, ours, swap)", "boost::shared_ptr<IPhysFunctor>()", "a material with a functor of its own is refused",
+    mutant("materials-functor", "pkg/dem/checks/ContactCheck.cpp", "loop->physDispatcher->getFunctor2D(b->material, ours, swap)", "boost::shared_ptr<IPhysFunctor>()", "a material with a functor of its own is refused",
            "test_messages.py::test_another_material_with_a_functor_of_its_own_is_let_be"),
-    mutant("surely-inactive", "pkg/dem/NscdInteractionLoop.cpp", "r.active && r.usable", "r.usable", "an interaction that a script has silenced is solved",
+    mutant("surely-inactive", "pkg/dem/engines/NscdInteractionLoop.cpp", "r.active && r.usable", "r.usable", "an interaction that a script has silenced is solved",
            "test_engine.py::test_an_interaction_that_is_silenced_bears_nothing"),
     mutant("known-written", RESIDENT, "r.keeper != Reading::Arrays || r.phys->touched", "r.keeper != Reading::Arrays", "what is written into a contact between two steps is lost",
            "test_view.py::test_what_is_changed_between_two_runs_is_taken_up[friction]"),
@@ -358,7 +358,7 @@ MUTANTS = (
     # ---- the paper's section 6, on a whole slope
     mutant("paper-strong", "py/nonsmooth/world/scene.py", "criticalSlip=weak.critical_slip", "criticalSlip=1e9 * weak.critical_slip", "DP does not weaken with slip",
            "test_verification.py::test_quick_form_of_a_long_check_holds[paper]"),
-    mutant("paper-release", "pkg/dem/PorePressureEngine.cpp", "(place - reference[id]).dot(downhill) > releaseDistance", "(reference[id] - place).dot(downhill) > releaseDistance",
+    mutant("paper-release", "pkg/dem/engines/PorePressureEngine.cpp", "(place - reference[id]).dot(downhill) > releaseDistance", "(reference[id] - place).dot(downhill) > releaseDistance",
            "water is released where disks have moved upslope", "test_verification.py::test_quick_form_of_a_long_check_holds[paper]"),
     mutant("paper-friction", "py/nonsmooth/world/scene.py", "weakenedFrictionAngle=math.atan(weak.friction)", "weakenedFrictionAngle=math.atan(m.friction)", "DP keeps its friction beyond D_c",
            "test_verification.py::test_quick_form_of_a_long_check_holds[paper]"),
@@ -370,15 +370,15 @@ MUTANTS = (
            "test_given_pairs.py::test_a_driven_wheel_of_bonded_disks_bears_nothing_while_it_turns"),
     mutant("given-pressed", GIVEN, "-u.n > drivenTogether", "u.n > drivenTogether", "it is told of bodies that are driven apart",
            "test_given_pairs.py::test_bodies_that_are_driven_into_each_other_are_told_of"),
-    mutant("collider-mended", "pkg/dem/PlanarGridCollider.cpp", "isThere(disks[id])", "regions.of(int(id)) >= 0", "a disk whose place was no number has no contacts once that is mended",
+    mutant("collider-mended", "pkg/dem/engines/PlanarGridColliderSearch.cpp", "isThere(disks[id])", "regions.of(int(id)) >= 0", "a disk whose place was no number has no contacts once that is mended",
            "test_collider.py::test_a_place_that_was_no_number_and_is_mended_has_contacts_again"),
-    mutant("newton-margin", "pkg/dem/PlanarNewtonIntegrator.cpp", "farthest < bound.sweepLength", "true", "YADE's collider is not told that a body has left its box",
+    mutant("newton-margin", "pkg/dem/engines/PlanarNewtonIntegrator.cpp", "farthest < bound.sweepLength", "true", "YADE's collider is not told that a body has left its box",
            "test_collider.py::test_every_pair_of_colliders_and_loops_has_the_same_bits"),
     mutant("given-far-size", "pkg/dem/seam/GivenMotion.cpp", "farthest * smallest", "farthest / smallest", "how far a body is placed anew is no length",
            "test_given_motion.py::test_jumps_and_moves_after_long_are_places_and_are_told_of"),
-    mutant("check-tester", "pkg/dem/SceneCheck.cpp", "return p[2] != 0;", "return p[1] != 0;", "a LawTester may not shear, and may leave the plane",
+    mutant("check-tester", "pkg/dem/checks/SceneCheck.cpp", "return p[2] != 0;", "return p[1] != 0;", "a LawTester may not shear, and may leave the plane",
            "test_given_pairs.py::test_paths_that_leave_the_plane_are_refused"),
-    mutant("check-controller", "pkg/dem/SceneCheck.cpp", '"TriaxialStateRecorder"', '"TriaxialStateRecorders"', "an engine that reads what rigid contacts have not is let run",
+    mutant("check-controller", "pkg/dem/checks/SceneCheck.cpp", '"TriaxialStateRecorder"', '"TriaxialStateRecorders"', "an engine that reads what rigid contacts have not is let run",
            "test_controllers.py::test_what_steers_by_stiffness_or_cell_is_refused_with_what_works"),
     # ---- ways of a step
     mutant("way-radius", WAY, "!(longest.radii > 1)", "!(longest.radii > 100)", "a disk that goes far beyond its radius in a step is let through a wall", WAYS + "::test_a_disk_that_falls_in_a_step_that_is_far_too_long"),
@@ -391,8 +391,8 @@ MUTANTS = (
     mutant("missed-named", WARNINGS, "!(value <= bound)", "name == string(\"residual\")", "the residual is told of where another figure is above its bound", "test_uneven_masses.py::test_what_is_above_its_bound_is_named_with_it"),
     mutant("sizes-lost", "pkg/dem/seam/ResidentSizes.cpp", "if (isSize(former.radius)) sizesLost[former.id] = former;", ";", "a disk whose radius was no number keeps its old mass when that is mended",
            "test_sizes.py::test_a_radius_without_sense_that_is_mended"),
-    mutant("check-halves", "pkg/dem/SceneCheck.cpp", "areRigid == takesRigid", "false", "a list in which all is soft, or all is rigid, is taken for one that was converted by halves",
+    mutant("check-halves", "pkg/dem/checks/SceneCheck.cpp", "areRigid == takesRigid", "false", "a list in which all is soft, or all is rigid, is taken for one that was converted by halves",
            "test_messages.py::test_soft_contacts_between_our_materials_are_let_be", "test_messages.py::test_another_material_is_refused_before_it_touches"),
-    mutant("check-shapeless", "pkg/dem/SceneCheck.cpp", "(bodies[id].blocked & inPlane) != inPlane", "false", "a disk that has lost its shape falls through everything",
+    mutant("check-shapeless", "pkg/dem/checks/ContactCheck.cpp", "(bodies[id].blocked & inPlane) != inPlane", "false", "a disk that has lost its shape falls through everything",
            "test_numbers_without_sense.py::test_a_body_that_may_move_and_has_lost_its_shape"),
 )

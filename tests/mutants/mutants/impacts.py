@@ -1,8 +1,8 @@
 """Impacts that follow from impacts in a step: their order, and what the step has of them."""
 from mutant import mutant
 
-SEQUENCE, SEAM = "pkg/contact/impact_sequence.cpp", "pkg/dem/seam/ContactSeamImpacts.cpp"
-SCATTER, CORRECT, ENGINE = "pkg/dem/seam/ContactSeamScatter.cpp", "pkg/dem/seam/ContactSeamCorrect.cpp", "pkg/dem/ContactDynamicsEngine.cpp"
+SEQUENCE, SEAM = "pkg/contact/plane/impact_sequence.cpp", "pkg/dem/seam/ContactSeamImpacts.cpp"
+SCATTER, CORRECT, ENGINE = "pkg/dem/seam/ContactSeamScatter.cpp", "pkg/dem/seam/ContactSeamCorrect.cpp", "pkg/dem/engines/ContactDynamicsEngine.cpp"
 CHAINS = "test_impacts.py::test_chains_go_as_impacts_in_the_order_of_time"
 ELASTIC = "test_impacts.py::test_equal_elastic_disks_hand_their_speed_on_whatever_the_gaps"
 GRAVITY, FRICTION, BONDS = (
@@ -49,7 +49,7 @@ MUTANTS = (
     mutant("impacts-forces", SCATTER, "r              = { r.x + p.x, r.y + p.y, r.w + p.w };", "r = { r.x + p.x, r.y + p.y, r.w };", "impacts do not turn bodies", FRICTION),
     mutant("impacts-displaced", "pkg/dem/seam/ContactSeam.hpp", "d.y + s.y", "d.y", "bodies are displaced along x alone",
            "test_impacts.py::test_any_frame_and_any_ids_see_the_same_impacts"),
-    mutant("impacts-settling", "pkg/dem/ContactDynamicsWarnings.cpp", "again * settling", "0 * settling", "what settles by a micrometre is told of",
+    mutant("impacts-settling", "pkg/dem/engines/ContactDynamicsWarnings.cpp", "again * settling", "0 * settling", "what settles by a micrometre is told of",
            "test_impacts.py::test_what_is_placed_a_little_above_its_place_is_told_of_nothing"),
     mutant("impacts-told", ENGINE, "missedRestitution += s.missed;", "missedRestitution += 0 * s.missed;", "what restitution would have given is not told",
            "test_impacts.py::test_without_impacts_that_are_followed_the_loss_is_told"),

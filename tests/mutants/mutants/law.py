@@ -1,7 +1,7 @@
 """The law broken at large: what verification checks must see, one of these mutants each and together all of them."""
 from mutant import Mutant
 
-KERNELS, PROBLEM, SEAM = "pkg/contact/block_kernels.inc", "pkg/contact/problem.hpp", "pkg/dem/seam/ContactSeam.cpp"
+KERNELS, PROBLEM, SEAM = "pkg/contact/plane/block_kernels.inc", "pkg/contact/plane/problem.hpp", "pkg/dem/seam/ContactSeam.cpp"
 
 
 def checks(*names):
@@ -19,7 +19,7 @@ MUTANTS = (
            ((KERNELS, "clamp<V>(yt - at.get(k->inverseT) * u.t, at.get(k->friction) * pressed)",
              "clamp<V>(yt - at.get(k->inverseT) * u.t, at.get(k->friction) * maxOf<V>(V {}, n))"),
             (KERNELS, "maxOf<V>(zero, at.get(k->friction) * pressed)", "maxOf<V>(zero, at.get(k->friction) * pn)"),
-            ("pkg/contact/law.hpp", "c.friction * (c.adhesion + n)", "c.friction * n")),
+            ("pkg/contact/plane/law.hpp", "c.friction * (c.adhesion + n)", "c.friction * n")),
            checks("bond-thresholds", "residual-thresholds", "bond-ellipse", "cantilever", "bridge")),
     Mutant("gap", "Signorini's condition does not know the gap: contacts act before they touch",
            ((SEAM, "c.biasN = !reading.bonded && gap > 0 ? gap / h : 0;", "c.biasN = 0;"),), checks("landing", "restitution-head-on", "cradle")),
@@ -30,5 +30,5 @@ MUTANTS = (
            ((SEAM, "c.friction        = reading.friction;", "c.friction = 0.5 * reading.friction;"),),
            checks("slider-on-a-plane", "oblique-impact", "disk-on-an-incline", "spinning-disk")),
     Mutant("early", "the solver stops at a million times its tolerance and calls that solved",
-           (("pkg/contact/sweeper.tpp", "residual.missed(tolerance, laidOut.survey.uneven) <= 1", "residual.missed(1e6 * tolerance, laidOut.survey.uneven) <= 1"),), checks("stack-of-disks", "elastic-chain")),
+           (("pkg/contact/core/sweeper.tpp", "residual.missed(tolerance, laidOut.survey.uneven) <= 1", "residual.missed(1e6 * tolerance, laidOut.survey.uneven) <= 1"),), checks("stack-of-disks", "elastic-chain")),
 )

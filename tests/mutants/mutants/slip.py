@@ -3,8 +3,8 @@ from mutant import mutant
 
 SLIP = "pkg/contact/slip/"
 ZONE, PROFILE, WATER, FLASH = SLIP + "heated_zone.cpp", SLIP + "profile.cpp", SLIP + "water.hpp", SLIP + "flash_heating.cpp"
-REACTION, MELT, TABLE, MATERIAL = SLIP + "decomposition.cpp", SLIP + "shear_melting.cpp", SLIP + "tabulated.cpp", "pkg/dem/NscdMat.cpp"
-CELLS, GRID = "pkg/dem/SlipSurfaceMat.cpp", "pkg/dem/WallCells.cpp"
+REACTION, MELT, TABLE, MATERIAL = SLIP + "decomposition.cpp", SLIP + "shear_melting.cpp", SLIP + "tabulated.cpp", "pkg/dem/materials/NscdMat.cpp"
+CELLS, GRID = "pkg/dem/materials/SlipSurfaceMat.cpp", "pkg/dem/walls/WallCells.cpp"
 SERIES, PICTURE = "py/nonsmooth/studies/slope/surface_series.py", "py/nonsmooth/figures/slip_surface.py"
 HEATED = "py/nonsmooth/measure/heated_surface.py"
 PLACES, ARRAYS = "py/nonsmooth/slip/cell_places.py", "py/nonsmooth/records/surfaces.py"
@@ -76,7 +76,7 @@ MUTANTS = (
     mutant("surface-chain", GRID, "alone ? onwards || back : (chain.backwards ? back : onwards)", "true", "walls apart are one", "test_slip_surface.py"),
     mutant("surface-at", GRID, "pieces.push_back({ body.getId(), int(chains.size()) - 1, chain.length, own });", "pieces.push_back({ body.getId(), int(chains.size()) - 1, 0, own });", "each wall begins the chain", "test_slip_surface.py"),
     mutant("surface-backwards", GRID, "chain.backwards ? piece->length - along : along", "along", "cells of a wall that runs back are exchanged", "test_slip_surface.py"),
-    mutant("surface-joint", "pkg/dem/NscdPhys.cpp", "phys->cell = surface->cellAt(*Body::byId(id), geom->contactPoint);", "phys->cell = -1;", "a joint of two walls has the strength before slip", "test_slip_surface.py"),
+    mutant("surface-joint", "pkg/dem/materials/NscdPhys.cpp", "phys->cell = surface->cellAt(*Body::byId(id), geom->contactPoint);", "phys->cell = -1;", "a joint of two walls has the strength before slip", "test_slip_surface.py"),
     mutant("surface-arc", GRID, "arc->radius * (std::atan2(local[1], local[0]) + arc->halfAngle)", "arc->radius * std::atan2(local[1], local[0])", "an arc begins in its middle", "test_slip_surface.py"),
     mutant("surface-impacts", "pkg/dem/seam/ContactSeamScatter.cpp", "0.5 * std::abs(u0.t + u1.t)", "std::abs(u0.t + u1.t)", "slip is twice the way", "test_slip_surface.py"),
     mutant("surface-rows", SERIES, '"x_m": middle[:, 0]', '"x_m": middle[:, 1]', "places of cells are exchanged", "test_heated_slopes.py"),

@@ -1,21 +1,21 @@
 """Law, sweeps, order of the sweep, residuals, and the search for neighbours: plain C++, judged by GoogleTest."""
 from mutant import mutant
 
-LAW, KERNELS, PROBLEM = ("pkg/contact/law.hpp", "pkg/contact/block_kernels.inc", "pkg/contact/problem.hpp")
-SOLVER, SWEEPER, CORRECTION = ("pkg/contact/solve.tpp", "pkg/contact/sweeper.tpp", "pkg/contact/position_correction.cpp")
-ACCESS, LOOPS, CORRECT = "pkg/contact/lane_access.inc", "pkg/contact/block_loops.inc", "pkg/contact/correct.tpp"
-BLOCKS, RESIDUAL, STOPPING = ( "pkg/contact/contact_blocks.tpp", "pkg/contact/residual.cpp", "pkg/contact/stopping.cpp")
-ORDER, CUT, SCHEDULE = ("pkg/contact/sweep_order.cpp", "pkg/contact/strip_cut.cpp", "pkg/contact/strip_schedule.cpp")
-WAVES = "pkg/contact/strip_schedule.hpp"
-STRIPS, EXTRAPOLATION = "pkg/contact/active_strips.cpp", "pkg/contact/extrapolation.hpp"
-CHECK, SURVEY = "pkg/contact/problem_check.hpp", "pkg/contact/problem_survey.cpp"
+LAW, KERNELS, PROBLEM = ("pkg/contact/plane/law.hpp", "pkg/contact/plane/block_kernels.inc", "pkg/contact/plane/problem.hpp")
+SOLVER, SWEEPER, CORRECTION = ("pkg/contact/core/solve.tpp", "pkg/contact/core/sweeper.tpp", "pkg/contact/plane/position_correction.cpp")
+ACCESS, LOOPS, CORRECT = "pkg/contact/core/lane_access.inc", "pkg/contact/core/block_loops.inc", "pkg/contact/core/correct.tpp"
+BLOCKS, RESIDUAL, STOPPING = ( "pkg/contact/core/contact_blocks.tpp", "pkg/contact/plane/residual.cpp", "pkg/contact/plane/stopping.cpp")
+ORDER, CUT, SCHEDULE = ("pkg/contact/core/sweep_order.cpp", "pkg/contact/core/strip_cut.cpp", "pkg/contact/core/strip_schedule.cpp")
+WAVES = "pkg/contact/core/strip_schedule.hpp"
+STRIPS, EXTRAPOLATION = "pkg/contact/core/active_strips.cpp", "pkg/contact/core/extrapolation.hpp"
+CHECK, SURVEY = "pkg/contact/plane/problem_check.hpp", "pkg/contact/plane/survey.cpp"
 GRID, NEAR, REGIONS = "pkg/neighbours/disk_grid.cpp", "pkg/neighbours/disk_grid.hpp", "pkg/neighbours/regions.cpp"
 CUT_KEPT = "survey.pairsKept && !moved && bins == binsBefore && scratch.width == widthBefore"  # of strip_cut.cpp
 
 MUTANTS = (
     # ---- law
-    mutant("law-tension", LAW, "std::max(n, -adhesion)", "std::max(n, adhesion)", "the tensile threshold is a compressive one", "gtest:Law.*"),
-    mutant("law-one-side", LAW, "std::max(-threshold, std::min(value, threshold))", "std::min(value, threshold)", "friction is cut in one direction only", "gtest:Law.*"),
+    mutant("law-tension", "pkg/contact/core/projections.hpp", "std::max(n, -adhesion)", "std::max(n, adhesion)", "the tensile threshold is a compressive one", "gtest:Law.*"),
+    mutant("law-one-side", "pkg/contact/core/projections.hpp", "std::max(-threshold, std::min(value, threshold))", "std::min(value, threshold)", "friction is cut in one direction only", "gtest:Law.*"),
     mutant("law-rolling-arm", LAW, "c.rollingArm * (c.adhesion + n)", "c.friction * (c.adhesion + n)", "the rolling threshold has the coefficient of friction",
            "gtest:Law.*"),
     mutant("law-delassus-axes", LAW, "c.ny * c.ny * x + c.nx * c.nx * y", "c.nx * c.nx * x + c.ny * c.ny * y",
@@ -43,25 +43,25 @@ MUTANTS = (
     mutant("nesterov-theta", EXTRAPOLATION, "0.5 * (1 + std::sqrt(1 + 4 * theta * theta))", "0.5 * (1 + std::sqrt(1 + 2 * theta * theta))", "a factor in Nesterov's sequence",
            "gtest:Pinned.*:Reference.*"),
     # ---- masses far apart
-    mutant("speed-share-mean", RESIDUAL, "std::sqrt(speed / std::max(active, 1.0))", "std::sqrt(speed / double(n))", "the mean share of speed is taken over open contacts too",
+    mutant("speed-share-mean", "pkg/contact/core/residual.cpp", "std::sqrt(speed / std::max(active, 1.0))", "std::sqrt(speed / double(n))", "the mean share of speed is taken over open contacts too",
            "gtest:UnevenMasses.SharesOfSpeed*"),
     mutant("speed-share-own", RESIDUAL, "std::max(change(vi, c.leverNi, c.leverTi), change(vj, c.leverNj, c.leverTj))",
            "change(vi, c.leverNi, c.leverTi)", "a speed is held against the first body's change alone", "gtest:UnevenMasses.SharesOfSpeed*"),
     mutant("speed-share-lanes", KERNELS, "maxOf<V>(a.x * a.x + a.y * a.y + turnI * turnI, b.x * b.x + b.y * b.y + turnJ * turnJ)",
            "a.x * a.x + a.y * a.y + turnI * turnI", "in blocks a speed is held against the first body's change alone", "gtest:UnevenMasses.SharesOfSpeed*"),
     mutant("speed-share-asked", SWEEPER, "residual.missed(tolerance, laidOut.survey.uneven) <= 1", "residual.relative() <= tolerance", "light bodies are not looked at", "gtest:UnevenMasses.ALightDisk*"),
-    mutant("patch-lane", "pkg/contact/patch_solver.cpp", "block.n.v[l] = block.beforeN.v[l] = p.n;", "block.n.v[l] = block.beforeN.v[l] = p.t;",
+    mutant("patch-lane", "pkg/contact/plane/patch_solver.cpp", "block.n.v[l] = block.beforeN.v[l] = p.n;", "block.n.v[l] = block.beforeN.v[l] = p.t;",
            "a patch's impulses go to other rows", "gtest:UnevenMasses.*"),
     mutant("stagnation", EXTRAPOLATION, "least > gain * leastBefore", "false", "the acceleration may run in circles to the end", "gtest:Stagnation.*"),
-    mutant("mass-jump-side", "pkg/contact/mass_jumps.hpp", "a >= jump * b || b >= jump * a", "a >= jump * b", "only the first body of a contact is seen to be light",
+    mutant("mass-jump-side", "pkg/contact/plane/mass_jumps.hpp", "a >= jump * b || b >= jump * a", "a >= jump * b", "only the first body of a contact is seen to be light",
            "gtest:MassJumps.*"),
-    mutant("interior-friction", "pkg/contact/interior_point.cpp", "e.share[r]      = e.arm[r] * (plus - minus) * e.g[r];", "e.share[r]      = 0;",
+    mutant("interior-friction", "pkg/contact/plane/interior_point.cpp", "e.share[r]      = e.arm[r] * (plus - minus) * e.g[r];", "e.share[r]      = 0;",
            "the thresholds of friction do not follow the pressure", "gtest:UnevenMasses.*"),
-    mutant("band-pivot", "pkg/contact/bordered_band.cpp", "std::abs(rowOf(r)[k + width - r]) > std::abs(rowOf(best)[k + width - best])", "false", "no pivots are looked for",
+    mutant("band-pivot", "pkg/contact/plane/bordered_band.cpp", "std::abs(rowOf(r)[k + width - r]) > std::abs(rowOf(best)[k + width - best])", "false", "no pivots are looked for",
            "gtest:BorderedBand.*"),
-    mutant("band-border", "pkg/contact/bordered_band.cpp", "x[k] -= right[k * border + c] * last[c];", "x[k] += right[k * border + c] * last[c];", "the border has the wrong sign",
+    mutant("band-border", "pkg/contact/plane/bordered_band.cpp", "x[k] -= right[k * border + c] * last[c];", "x[k] += right[k * border + c] * last[c];", "the border has the wrong sign",
            "gtest:BorderedBand.*"),
-    mutant("lost-squares", "pkg/contact/problem_scale.cpp", "std::min(speed, speed / lightness) < lost", "speed < lost", "light bodies' squares are lost",
+    mutant("lost-squares", "pkg/contact/core/scaling.cpp", "std::min(speed, speed / lightness) < lost", "speed < lost", "light bodies' squares are lost",
            "gtest:UnevenMasses.Units*"),
     # ---- strips that rest
     mutant("strips-share", STRIPS, "!(sums[s].*part <= bound)", "!(sums[s].*part <= 0 * bound)", "no strip rests", "gtest:ActiveStrips.*"),
@@ -78,7 +78,7 @@ MUTANTS = (
            "contacts outside blocks push bodies when they come to rest", "gtest:ActiveStrips.*"),
     mutant("strips-left-over", SWEEPER, "begin.back() > begin[begin.size() - 2]", "false", "strips rest though contacts of no strip move their bodies",
            "gtest:Threads.*"),
-    mutant("residual-mean", RESIDUAL, "std::sqrt(square / n)", "std::sqrt(square)", "the residual is a sum and no mean over contacts",
+    mutant("residual-mean", "pkg/contact/core/residual.cpp", "std::sqrt(square / n)", "std::sqrt(square)", "the residual is a sum and no mean over contacts",
            "gtest:Manufactured.WhatIsMoved*"),
     mutant("position-held", CORRECTION, "e.held ? without : 0", "e.held ? 0 : without",
            "contacts pull and bonds do not, where errors of position are taken back", "gtest:Positions.*"),
@@ -156,11 +156,11 @@ MUTANTS = (
     # ---- residuals, stopping, slip, refusals
     mutant("residual-speeds", RESIDUAL, "speed(defect.r, w.r) * c.length", "speed(defect.r, w.r)", "the residual of rolling as a speed lacks its length",
            "gtest:Residual.*"),
-    mutant("residual-scale", RESIDUAL, "std::sqrt(scale / n)", "std::sqrt(scale)", "the scale of the residual is a sum and no mean",
+    mutant("residual-scale", "pkg/contact/core/residual.cpp", "std::sqrt(scale / n)", "std::sqrt(scale)", "the scale of the residual is a sum and no mean",
            "gtest:Manufactured.WhatIsMoved*"),
-    mutant("stopping-qm16", STOPPING, "std::max(quad, maxm / maxmToQuad)", "std::min(quad, maxm / maxmToQuad)", "QM/16 is the smaller of its two figures",
+    mutant("stopping-qm16", "pkg/contact/core/stopping.cpp", "std::max(quad, maxm / maxmToQuad)", "std::min(quad, maxm / maxmToQuad)", "QM/16 is the smaller of its two figures",
            "gtest:Stopping.*"),
-    mutant("stopping-drift", STOPPING, "drift += contact.drift;", "drift += contact.change;", "the drift is no work", "gtest:Stopping.*"),
+    mutant("stopping-drift", "pkg/contact/core/stopping.cpp", "drift += contact.drift;", "drift += contact.change;", "the drift is no work", "gtest:Stopping.*"),
     mutant("refuse-friction", CHECK, "c.adhesion >= 0 && c.friction >= 0", "c.adhesion >= 0", "a negative friction is taken", "gtest:Refusal.*"),
     # ---- neighbours
     mutant("grid-margin", GRID, "std::min(e.margin, o.margin)", "std::max(e.margin, o.margin)", "pairs are looked for within the larger margin", "gtest:DiskGrid.*"),
@@ -180,10 +180,10 @@ MUTANTS = (
     mutant("law-given-closing", LAW, "if (lost < 0) return {};", ";", "bodies that are driven into each other rub as if nothing pressed them",
            "gtest:Law.GivenMotionByHand"),
     # ---- bonds that close freely
-    mutant("play-length", LAW, "std::min(n + inverse * play, 0.0)", "std::min(n - inverse * play, 0.0)", "a bond that closes freely pulls below its length", "gtest:Play.EachBranch*"),
+    mutant("play-length", "pkg/contact/core/projections.hpp", "std::min(n + inverse * play, 0.0)", "std::min(n - inverse * play, 0.0)", "a bond that closes freely pulls below its length", "gtest:Play.EachBranch*"),
     mutant("play-given", LAW, "lost - c.play", "lost", "a bond whose motion is given pulls as soon as its bodies part", "gtest:Play.GivenMotionByHand"),
     mutant("play-kernels", LOOPS, "minOf<V>(n + at.get(play), zero)", "minOf<V>(n, zero)", "sweeps in blocks know nothing of play", "gtest:Play.OnePair*"),
     mutant("play-displaced", CORRECT, "playOf(k, l, e.play)", "0", "displacements keep a bond that may close as far as it was", "gtest:Play.Displacements*"),
-    mutant("play-patch", "pkg/contact/interior_point.cpp", "c.play - u[0] - (e.drawn.speed - e.spare.speed)", "u[0] - c.play - (e.drawn.speed - e.spare.speed)", "in patches a bond is short by what it is long",
+    mutant("play-patch", "pkg/contact/plane/interior_point.cpp", "c.play - u[0] - (e.drawn.speed - e.spare.speed)", "u[0] - c.play - (e.drawn.speed - e.spare.speed)", "in patches a bond is short by what it is long",
            "gtest:Play.AHeavyDisk*"),
 )

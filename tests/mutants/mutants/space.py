@@ -25,7 +25,7 @@ MUTANTS = (
     mutant("space-residual-twisting", PHYS, "bonded ? twistingArm : residualTwistingArm", "twistingArm", "without a bond the peak's twisting friction holds", SPACE + "::test_without_a_bond_the_residual_twisting_friction_holds"),
     mutant("faces-owner", JOINTS, "if (other.id < own.id) return false;", "", "a ridge has two contacts", SPACE + "::test_a_ball_on_a_ridge_has_one_contact_and_in_a_groove_two"),
     mutant("faces-goes-on", JOINTS, "there.feature == space::Nearest::Face", "false", "a ball feels the edges of a floor of facets", SPACE + "::test_facets_that_lie_in_one_plane_are_one_floor"),
-    mutant("faces-lost", "pkg/dem/Law2_ScGeom_NscdPhys_SignoriniCoulomb.cpp", "(face && !face->owned)", "false", "a contact stays at the facet that the ball has left",
+    mutant("faces-lost", "pkg/dem/materials/Law2_ScGeom_NscdPhys_SignoriniCoulomb.cpp", "(face && !face->owned)", "false", "a contact stays at the facet that the ball has left",
            SPACE + "::test_facets_that_lie_in_one_plane_are_one_floor"),
     mutant("faces-edge", NEAR, "within ? from + s * along : s <= 0 ? from : t.at(k + 1)", "s <= 0 ? from : t.at(k + 1)", "an edge is its two ends", SPACE + "::test_a_ball_on_a_ridge_has_one_contact_and_in_a_groove_two"),
     mutant("harden-cohesion", HARD + "/strengths.py", "per_area = 1 / math.pi if disk_radius is None", "per_area = 1 if disk_radius is None", "cohesion in space acts on a radius squared",

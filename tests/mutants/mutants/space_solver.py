@@ -3,7 +3,7 @@ from mutant import mutant
 
 LAW, PROBLEM, GENERAL = "pkg/contact/space/law.hpp", "pkg/contact/space/problem.hpp", "pkg/contact/space/law.cpp"
 KERNELS, FILL, RESIDUAL = "pkg/contact/space/kernels.inc", "pkg/contact/space/fill.cpp", "pkg/contact/space/residual.cpp"
-SURVEY, CORRECTION, CUT = "pkg/contact/space/survey.cpp", "pkg/contact/space/position_correction.cpp", "pkg/contact/strip_cut.cpp"
+SURVEY, CORRECTION, CUT = "pkg/contact/space/survey.cpp", "pkg/contact/space/position_correction.cpp", "pkg/contact/core/strip_cut.cpp"
 ONE, MADE, PATHS = "gtest:*SpaceOneContact*", "gtest:SpaceManufactured.*", "gtest:SpacePaths.*"
 
 MUTANTS = (

@@ -2,9 +2,9 @@
 from mutant import mutant
 
 SHOW, RESIDENT, RESIDENT_H, TURN = "pkg/dem/seam/ResidentShow.cpp", "pkg/dem/seam/Resident.cpp", "pkg/dem/seam/Resident.hpp", "pkg/dem/seam/Turn.cpp"
-MAT, PHYS, PHYS_H, COLLIDER = "pkg/dem/NscdMat.cpp", "pkg/dem/NscdPhys.cpp", "pkg/dem/NscdPhys.hpp", "pkg/dem/PlanarGridCollider.cpp"
-LOOP, ENGINE, WATER, PLATE = "pkg/dem/NscdInteractionLoop.cpp", "pkg/dem/ContactDynamicsEngine.cpp", "pkg/dem/PorePressureEngine.cpp", "pkg/dem/PlateLoadEngine.cpp"
-GIVEN, STEPPER, ELLIPSE, CHECK = "pkg/dem/seam/GivenMotion.cpp", "pkg/dem/NonsmoothTimeStepper.cpp", "pkg/dem/BondEllipseEngine.cpp", "pkg/dem/SceneCheck.cpp"
+MAT, PHYS, PHYS_H, COLLIDER = "pkg/dem/materials/NscdMat.cpp", "pkg/dem/materials/NscdPhys.cpp", "pkg/dem/materials/NscdPhys.hpp", "pkg/dem/engines/PlanarGridCollider.cpp"
+LOOP, ENGINE, WATER, PLATE = "pkg/dem/engines/NscdInteractionLoop.cpp", "pkg/dem/engines/ContactDynamicsEngine.cpp", "pkg/dem/engines/PorePressureEngine.cpp", "pkg/dem/engines/PlateLoadEngine.cpp"
+GIVEN, STEPPER, ELLIPSE, CHECK = "pkg/dem/seam/GivenMotion.cpp", "pkg/dem/engines/NonsmoothTimeStepper.cpp", "pkg/dem/engines/BondEllipseEngine.cpp", "pkg/dem/checks/SceneCheck.cpp"
 OUTLIVED, EVENTS, NUMBERS, EVERY = "test_outlived_state.py", "test_state_events.py", "test_numbers_without_sense.py", "test_every_number.py"
 BACKGROUND, WATCHED = "py/nonsmooth/world/background.py", "test_background.py"
 
@@ -43,12 +43,12 @@ MUTANTS = (
            OUTLIVED + "::test_a_wall_that_is_moved_by_its_place_does_not_count_a_refused_step"),
     mutant("interface-number", "pkg/dem/seam/ContactSeamScatter.cpp", "++allSteps", "scene.iter",
            "slip along an interface is lost where time is reset", OUTLIVED + "::test_slip_along_an_interface_counts_though_steps_have_the_same_number"),
-    mutant("joints-number", "pkg/dem/PerScene.hpp", "scene.iter + long(scene.forces.syncCount << 32)", "scene.iter", "joints are those of an earlier step with that number",
+    mutant("joints-number", "pkg/dem/seam/PerScene.hpp", "scene.iter + long(scene.forces.syncCount << 32)", "scene.iter", "joints are those of an earlier step with that number",
            OUTLIVED + "::test_joints_of_walls_are_looked_up_in_each_step_though_it_has_the_same_number"),
     mutant("dump-whole", ENGINE, "problemIsWhole = false;", "problemIsWhole = true;", "half of a refused step's problem is written", OUTLIVED + "::test_a_problem_is_not_half_of_a_step_that_was_refused"),
-    mutant("advance-within", "pkg/dem/Advance.cpp", "begun == &scene", "false", "advance() makes steps within a step", OUTLIVED + "::test_an_advance_within_a_step_is_refused"),
+    mutant("advance-within", "pkg/dem/seam/Advance.cpp", "begun == &scene", "false", "advance() makes steps within a step", OUTLIVED + "::test_an_advance_within_a_step_is_refused"),
     mutant("engines-unseen", "pkg/dem/seam/Turn.cpp", "isTooLate(scene, engine)", "false", "YADE's engines work on bodies as they were", OUTLIVED + "::test_engines_that_are_exchanged_while_nothing_is_shown"),
-    mutant("forces-late", "pkg/dem/WallForceEngine.cpp", "scene->forces.sync();", "", "a force that is added late ends the run", OUTLIVED + "::test_the_sums_of_a_wall_after_a_force_was_added_behind_the_integrator"),
+    mutant("forces-late", "pkg/dem/engines/WallForceEngine.cpp", "scene->forces.sync();", "", "a force that is added late ends the run", OUTLIVED + "::test_the_sums_of_a_wall_after_a_force_was_added_behind_the_integrator"),
     # ---- runs in the background
     mutant("background-late", BACKGROUND, "if message is not None:\n        _heard(message)", "if False:\n        _heard(message)", "an error before the waiting begins is not raised",
            WATCHED + "::test_what_ended_a_run_is_raised_by_who_waits_later_and_once"),
@@ -60,14 +60,14 @@ MUTANTS = (
     mutant("launcher-number", "scripts/yade-nonsmooth", 'threads=$2; check_threads "$1" "$threads"; shift 2', "threads=$2; shift 2", "the script's name is taken for a number of threads",
            "test_load.py::test_launcher_refuses_bad_calls"),
     # ---- numbers
-    mutant("sense-arc", CHECK, "arc->halfAngle > 0 && arc->halfAngle <= Mathr::PI * (1 + 1e-12)", "true", "an arc without an opening is no wall", NUMBERS + "::test_a_wall_that_no_disk_could_touch"),
-    mutant("sense-reach", CHECK, "value >= 0 && std::isfinite(value)", "true", "a law that looks nowhere lets disks through", NUMBERS + "::test_a_law_that_looks_nowhere"),
+    mutant("sense-arc", "pkg/dem/checks/ContactCheck.cpp", "arc->halfAngle > 0 && arc->halfAngle <= Mathr::PI * (1 + 1e-12)", "true", "an arc without an opening is no wall", NUMBERS + "::test_a_wall_that_no_disk_could_touch"),
+    mutant("sense-reach", "pkg/dem/checks/ContactCheck.cpp", "value >= 0 && std::isfinite(value)", "true", "a law that looks nowhere lets disks through", NUMBERS + "::test_a_law_that_looks_nowhere"),
     mutant("sense-ellipse", PHYS, "bonded && !(one.second > 0)", "false", "a bond without an ellipse lives for ever", OUTLIVED + "::test_a_bond_without_an_ellipse"),
     mutant("sense-water", WATER, "value >= 0 && nscd::isNumber(value)", "true", "water of no weight wets all", NUMBERS + "::test_water_of_no_weight"),
     mutant("sense-normal", WATER, "gravity.dot(normal) > 0", "false", "a table upside down is taken", EVERY + "::test_a_number_is_refused_by_its_name_or_harmless"),
     mutant("sense-rail", PLATE, "std::abs(beside) <= length", "true", "a plate is pulled to a way far from it", EVERY + "::test_a_number_is_refused_by_its_name_or_harmless"),
-    mutant("sense-hugest", "pkg/dem/Refusal.hpp", "std::abs(value) <= hugest", "!std::isnan(value)", "numbers whose squares are none are taken", EVERY + "::test_a_number_is_refused_by_its_name_or_harmless"),
-    mutant("sense-sure-reach", CHECK, "collider->sureReach < std::min(least, reach)", "false", "slow disks over a gap are not found", EVERY + "::test_a_number_is_refused_by_its_name_or_harmless"),
+    mutant("sense-hugest", "pkg/dem/checks/Refusal.hpp", "std::abs(value) <= hugest", "!std::isnan(value)", "numbers whose squares are none are taken", EVERY + "::test_a_number_is_refused_by_its_name_or_harmless"),
+    mutant("sense-sure-reach", "pkg/dem/checks/ContactCheck.cpp", "collider->sureReach < std::min(least, reach)", "false", "slow disks over a gap are not found", EVERY + "::test_a_number_is_refused_by_its_name_or_harmless"),
     mutant("sense-set", MAT, "weakenedTensileStrength >= 0 && nscd::isNumber(weakenedTensileStrength)", "true", "a wall is weakened to a strength that is none",
            "test_messages.py::test_strengths_of_a_material_that_no_contact_has"),
 )

@@ -2,9 +2,9 @@
 from mutant import mutant
 
 SEGMENT, JOINTS, JOINTS_H, ARC, ARC_H = (
-    f"pkg/dem/{name}" for name in ("Segment.cpp", "WallJoints.cpp", "WallJoints.hpp", "Arc.cpp", "Arc.hpp")
+    f"pkg/dem/walls/{name}" for name in ("Segment.cpp", "WallJoints.cpp", "WallJoints.hpp", "Arc.cpp", "Arc.hpp")
 )
-PLATE, LOOP, READING = "pkg/dem/PlateLoadEngine.cpp", "pkg/dem/NscdInteractionLoop.cpp", "pkg/dem/seam/ContactReading.hpp"
+PLATE, LOOP, READING = "pkg/dem/engines/PlateLoadEngine.cpp", "pkg/dem/engines/NscdInteractionLoop.cpp", "pkg/dem/seam/ContactReading.hpp"
 SEAM, CORRECT, SCENE = "pkg/dem/seam/ContactSeam.cpp", "pkg/dem/seam/ContactSeamCorrect.cpp", "py/nonsmooth/world/scene.py"
 KEPT = "test_joints.py::test_a_disk_keeps_its_speed_over_joints_of_walls_made"
 CORNERS = "test_joints.py::test_corners_of_single_walls_are_those_of_a_polyline"

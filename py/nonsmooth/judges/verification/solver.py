@@ -235,7 +235,7 @@ def sweeps_in_a_running_scene(bench):
 @check("Stopping tests by name: where they stop, and what they leave", subject=SUBJECT, seconds=20, quick=6)
 def stopping_tests_by_name(bench):
     """Quad, Maxm and QM/16 look at the change of relative velocity that one more visit of each contact would make
-    (``pkg/contact/stopping.hpp``). Each must stop the solver at the first look, one in ten sweeps, at which its own
+    (``pkg/contact/plane/stopping.hpp``). Each must stop the solver at the first look, one in ten sweeps, at which its own
     figures are below the tolerance: at the stop they are, ten sweeps before they were not. All three are measured again
     from the impulses returned.
 

@@ -143,7 +143,7 @@ def over_relaxed(s, p, v):
 
 
 class _Restarts:
-    """The solver's own rule (``pkg/contact/solver.cpp``): restart where the residual is larger than two comparisons
+    """The solver's own rule (``pkg/contact/plane/solver.cpp``): restart where the residual is larger than two comparisons
     ago, or twice the least since the last restart; each restart moves the looks that are compared apart."""
 
     def __init__(self, residual):

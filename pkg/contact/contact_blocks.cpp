@@ -1,8 +1,0 @@
-#include <contact/contact_blocks.tpp>
-
-namespace nonsmooth::contact {
-
-template void layOut<Plane>(const Problem&, int, ContactBlocks&, bool);
-template void fillIn<Plane>(const Problem&, const BlockKernels&, std::size_t, ContactBlocks&);
-
-} // namespace nonsmooth::contact
