@@ -425,7 +425,7 @@ MUTANTS = (
            "the row that the engine would write is lost", "test_repeated_runs.py::test_a_run_goes_on_by_the_engine_and_back"),
     mutant("lessons-merged", "py/nonsmooth/studies/lessons.py", "for name, cases in kept.items()} | found", "for name, cases in kept.items() if not found} | found",
            "a lesson run alone drops the others", "test_lessons.py::test_a_lesson_that_is_run_alone_leaves_the_numbers_of_others"),
-    mutant("script-table-words", "py/nonsmooth/campaign/scripts.py", "and (numbers == width or cells == _cells(line))", "and numbers == width",
+    mutant("script-table-words", "py/nonsmooth/campaign/script_output.py", "and (numbers == width or cells == _cells(line))", "and numbers == width",
            "a table with words in it is not read", "test_plain_runs.py::test_tables_of_words_of_commas_and_of_one_column_are_read"),
     mutant("heap-restitution", "py/nonsmooth/studies/heaps/grains.py", "if self.restitution > 0:", "if self.restitution > 1:", "the soft world drops a restitution in silence",
            "test_columns.py::test_restitution_is_not_dropped_in_silence"),
