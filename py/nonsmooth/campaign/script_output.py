@@ -1,5 +1,5 @@
-"""The run of a YADE script, opened from its folder: what the script has printed, its numbers and tables, and its scene at
-the end. Needs no YADE.
+"""The run of a YADE script, opened from its folder: what the script has printed, its numbers and tables, and its scene
+at the end. Needs no YADE.
 """
 
 from __future__ import annotations

@@ -1,5 +1,5 @@
-"""YADE scripts from any Python, the lessons among them: each runs in a YADE process of its own (:mod:`.script_run`), and
-is opened from its folder (:mod:`.script_output`).
+"""YADE scripts from any Python, the lessons among them: each runs in a YADE process of its own (:mod:`.script_run`),
+and is opened from its folder (:mod:`.script_output`).
 
     from nonsmooth import campaign
 

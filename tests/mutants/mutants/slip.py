@@ -104,7 +104,7 @@ MUTANTS = (
            "ground with a slip law counts as a slip surface", "test_heated_slopes.py"),
     mutant("surface-begins", "py/nonsmooth/measure/characteristic_times.py", '(series[CELLS] >= WEAKENED_LOAD) & (series["time_s"] >= state["t0"])', "series[CELLS] >= WEAKENED_LOAD",
            "a surface that weakened while it settled weakens before the water", "test_results.py"),
-    mutant("surface-length", "py/nonsmooth/world/scene.py", "cellLength=m.slip_law.cell_length", "cellLength=0.0", "a section's cells have the length of any", "test_section_keys.py"),
+    mutant("surface-length", "py/nonsmooth/world/materials.py", "cellLength=m.slip_law.cell_length", "cellLength=0.0", "a section's cells have the length of any", "test_section_keys.py"),
     # ---- slopes that heat
     mutant("heated-after", HEATED, '"after_s": time - start', '"after_s": time', "time counts from the beginning of the run", "plain:test_heated_surface.py"),
     mutant("heated-creep", HEATED, "np.flatnonzero(speed < BEGIN).max(initial=0)", "np.flatnonzero(speed >= BEGIN).min(initial=0)", "creep counts as the slide",

@@ -1,5 +1,5 @@
-"""``build`` and ``run`` of :mod:`.course` for the kinds of heaps: they need YADE, and are imported when they are asked
-for.
+"""``build`` and ``run`` of :mod:`.heaps.course` for the kinds of heaps: they need YADE, and are imported when they are
+asked for.
 """
 
 from __future__ import annotations
