@@ -109,8 +109,8 @@ class Drawing:
         return found
 
     def figure(self, name, path=None):
-        """One of run_files.PICTURES: the matplotlib Figure, or the ``path`` that it is written to; None where the records
-        do not show it. Raises records.RecordsError for another name."""
+        """One of run_files.PICTURES: the matplotlib Figure, or the ``path`` that it is written to; None where the
+        records do not show it. Raises records.RecordsError for another name."""
         if name not in run_files.PICTURES:
             raise records.RecordsError(f"figure {checks.shown(name)}: give one of {', '.join(run_files.PICTURES)}")
         if name == "forces":
