@@ -36,14 +36,7 @@ def read_arguments():
         help=f"only these slopes: {', '.join(paper_slopes.VARIANTS)}",
     )
     arguments.add_disks(parser, paper_slopes.DISKS, "about how many disks of a slope")
-    parser.add_argument(
-        "--seeds",
-        type=int,
-        nargs="+",
-        default=list(paper_slopes.SEEDS),
-        metavar="S",
-        help="of the packings (default: 1 2 3 4 5)",
-    )
+    arguments.add_seeds(parser, list(paper_slopes.SEEDS), "of the packings (default: 1 2 3 4 5)")
     arguments.add_runs(parser, "out/paper", "runs")
     return parser.parse_args()
 

@@ -51,13 +51,8 @@ def read_arguments():
         metavar="MU",
         help="friction coefficients of contacts (default: %(default)s)",
     )
-    parser.add_argument(
-        "--seeds",
-        type=int,
-        nargs="+",
-        metavar="S",
-        help=f"seeds of the samples, two or more (default: {' '.join(map(str, rock_table.SEEDS))}; with --check {' '.join(map(str, rock_table.CHECK_SEEDS))})",
-    )
+    usual, checking = (" ".join(map(str, seeds)) for seeds in (rock_table.SEEDS, rock_table.CHECK_SEEDS))
+    arguments.add_seeds(parser, None, f"seeds of the samples, two or more (default: {usual}; with --check {checking})")
     arguments.add_runs(parser, "out/rocks", "tests")
     args = parser.parse_args()
     if args.seeds is None:

@@ -2,6 +2,7 @@
 
 import ast
 import functools
+import graphlib
 import importlib
 import re
 import subprocess
@@ -50,13 +51,15 @@ def named(text, here, modules):
     processes.call takes it, "..records" and "yade.nonsmooth.records", as importlib does, and commands with the latter
     in them; ``here``: the parts of the module that the text stands in.
     """
-    names = {found.strip(".") for found in re.findall(r"\b(?:yade\.)?nonsmooth\.([a-z_.]+)", text)}
+    names = set()
+    for found, inner in re.findall(r"\b(?:yade\.)?nonsmooth\.([a-z_.]+)(?![A-Z.a-z_])(?: import ([a-z_]+))?", text):
+        names.add(".".join(filter(None, (found.strip("."), inner))))  # not a class, of which a message tells
     if re.fullmatch(r"[a-z_.]+:[a-z_]+", text):
         names.add(text.partition(":")[0])
     if text in modules and "." in text:  # not with an attribute behind it, which is how keys of sections look
         names.add(text)
-    if re.fullmatch(r"\.+[a-z_.]+", text):
-        names |= {".".join([*here[:k], text.strip(".")]) for k in range(len(here))}
+    if re.fullmatch(r"\.+[a-z_.]+", text):  # with no attribute behind it: ".csv" and ".gif" look so too
+        names |= {".".join([*here[:k], text.strip(".")]) for k in range(len(here))} & modules
     face = importlib.import_module("nonsmooth").FACE
     for name in list(names):  # by its public name, or with an attribute behind it
         first = max((one for one in face if f"{name}.".startswith(f"{one}.")), key=len, default=None)
@@ -102,6 +105,26 @@ def back_up(modules, among):
             if here != there and (here is None or there is None or order[there] > order[here]):
                 arrows.append((module, one))
     return sorted(arrows)
+
+
+def circle(modules):
+    """Modules that import each other, each the next one, the last of them the first again: the first such circle that
+    is found, None where there is none. A package's own module comes with each of its modules, to those outside of the
+    package.
+    """
+    names, graph = frozenset(modules), {}
+    for module, (source, package) in modules.items():
+        graph[module] = set()
+        for one in imports(module, source, package, names) if module else ():
+            words = one.split(".")
+            outer = {".".join(words[:k]) for k in range(1, len(words))} & names
+            comes = {one, *(o for o in outer if not f"{module}.".startswith(f"{o}."))}
+            graph[module] |= comes - {module}
+    try:
+        graphlib.TopologicalSorter(graph).prepare()
+    except graphlib.CycleError as error:
+        return error.args[1][::-1]
+    return None
 
 
 def test_every_module_stands_in_a_room_of_the_page():
@@ -153,6 +176,39 @@ def test_an_import_that_runs_back_up_is_seen(module, line):
     source, package = modules[module]
     modules[module] = f"{source}\n{line}\n", package
     assert [found for found, _ in back_up(modules, rooms())] == [module]
+
+
+def test_no_modules_import_each_other():
+    assert circle(sources()) is None
+
+
+@pytest.mark.parametrize(
+    "module, line, found",
+    [
+        ("records.error", "from .series import SeriesWriter", {"records.error", "records.series"}),
+        ("records.columns", "def late():\n    from . import RecordsError", {"records.columns", "records"}),
+        ("campaign.plan", "from . import sweep", {"campaign.plan", "campaign.sweep"}),
+        (
+            "campaign.script_output",
+            "FUNCTION = 'campaign.script_run:run'",
+            {"campaign.script_output", "campaign.script_run"},
+        ),
+        ("system.checks", "from ..packing.files import Packing", None),
+        (
+            "world.hardening.domain",
+            "COMMAND = 'from yade.nonsmooth.world.hardening import lists'",
+            {"world.hardening.domain", "world.hardening.lists"},
+        ),
+        ("studies.slope.error", "import yade.nonsmooth.experiment", None),
+    ],
+)
+def test_a_circle_is_seen(module, line, found):
+    """``found``: its modules, None where they are many."""
+    modules = sources()
+    source, package = modules[module]
+    modules[module] = f"{source}\n{line}\n", package
+    seen = circle(modules)
+    assert module in seen and (found is None or set(seen) == found)
 
 
 def test_yade_is_imported_where_scenes_are():

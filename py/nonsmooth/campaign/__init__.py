@@ -8,6 +8,7 @@ table; and single runs of every kind. Needs no YADE: each run has a process of i
 * :mod:`heaps`: columns and piles;
 * :mod:`laboratory`: tension tests of a rock;
 * :mod:`scripts`: lessons and any script; :mod:`script_run`: what a process does with one (in YADE);
+  :mod:`script_output`: its run, opened;
 * :mod:`comparisons`: hard against soft.
 
 Like this::
@@ -23,7 +24,8 @@ from .heaps import HeapRun, open_heap, run_column, run_heaps, run_pile
 from .laboratory import run_tension_test, run_tension_tests
 from .plan import SEED, Plan, PlanError, Planned, collect, means, read, run_one
 from .safety import factors_of_safety, run_factor_of_safety
-from .scripts import LESSONS, ScriptError, ScriptRun, lesson, lessons, open_script, run_lesson, run_script, run_scripts
+from .script_output import ScriptRun, open_script
+from .scripts import LESSONS, ScriptError, lesson, lessons, run_lesson, run_script, run_scripts
 from .sweep import results_of, run_slope, sweep
 
 __all__ = [

@@ -13,7 +13,7 @@ from pathlib import Path
 from ..records import RecordsError
 from ..system.whole_files import write_atomically
 from ..world import scene_arrays
-from .scripts import OUTPUT, SCENE
+from .script_output import OUTPUT, SCENE
 
 __all__ = ["run"]
 

@@ -29,7 +29,7 @@ from ..system.whole_files import whole
 from .heaps import columns as heap_columns, study
 from .laboratory import biaxial_test, tension_campaign, tension_test, wall_shear
 from .safety import columns as safety_columns, results as safety_results
-from .slope import columns as slope_columns, frames, results
+from .slope import columns as slope_columns, frames, run_files
 
 __all__ = [
     "FIGURES",
@@ -47,7 +47,7 @@ __all__ = [
     "open_run",
 ]
 
-FIGURES = results.PICTURES
+FIGURES = run_files.PICTURES
 VIDEOS = (".mp4", ".gif")  # as files of a run end
 RESULT = "result.json"  # of a run in a process of its own
 
@@ -151,7 +151,7 @@ class StudyRun(Opened):
     @cached_property
     def breaks(self) -> dict:
         """Broken bonds: {name: array}, see records.read_breaks. Raises RunError for a kind of run that keeps none."""
-        return records.read_breaks(self._file(results.BREAKS))
+        return records.read_breaks(self._file(run_files.BREAKS))
 
     @cached_property
     def summary(self) -> dict:
@@ -161,7 +161,7 @@ class StudyRun(Opened):
     @property
     def snapshots(self) -> dict:
         """Files of the snapshots, by their names: {name: path}."""
-        return {path.stem: path for path in whole(self.folder / results.SNAPSHOTS, "*.npz")}
+        return {path.stem: path for path in whole(self.folder / run_files.SNAPSHOTS, "*.npz")}
 
     def snapshot(self, name) -> records.Snapshot:
         """The Snapshot of this name, one of :attr:`snapshots`, or at a time [s], that of the nearest. Raises RunError
@@ -193,7 +193,7 @@ class SlopeRun(StudyRun):
     @cached_property
     def summary(self) -> dict:
         """``summary.json``; RunError where the run has not come so far."""
-        return json.loads(self._file(results.SUMMARY).read_text())
+        return json.loads(self._file(run_files.SUMMARY).read_text())
 
     @cached_property
     def walls(self) -> dict:
@@ -205,14 +205,14 @@ class SlopeRun(StudyRun):
         """Columns of ``eroded.csv``: {name: array (disks,)}, a row for each disk that was taken out. Raises RunError
         where the section has no windows that take some.
         """
-        return records.read_eroded(self._file(results.LEDGER))
+        return records.read_eroded(self._file(run_files.LEDGER))
 
     @cached_property
     def slip_surface(self) -> dict:
         """Columns of ``slip_surface.csv``: {name: array (rows,)}, a row for each cell of a wall with a slip law, and
         time. Raises RunError where no wall has one.
         """
-        return records.read_surfaces(self._file(results.SURFACE))
+        return records.read_surfaces(self._file(run_files.SURFACE))
 
     @cached_property
     def slip_surface_arrays(self) -> dict:
@@ -224,7 +224,9 @@ class SlopeRun(StudyRun):
     @property
     def snapshots(self) -> dict:
         """Files of the snapshots, by their steps, and "t0" and "end" where the run has come so far: {name: path}."""
-        ends = {path.stem: path for path in (self.folder / results.BEGIN, self.folder / results.END) if path.exists()}
+        ends = {
+            path.stem: path for path in (self.folder / run_files.BEGIN, self.folder / run_files.END) if path.exists()
+        }
         return {path.stem: path for _, path in frames.of_run(self.folder, self.series)} | ends
 
     def snapshot(self, name) -> records.Snapshot:

@@ -25,7 +25,7 @@ from yade.wrapper import (
 )
 
 from ..system import checks
-from .scene import SceneError
+from .error import SceneError
 
 __all__ = ["SHAPES", "bounds", "engines", "loop"]
 

@@ -8,8 +8,8 @@ MONITOR, ATTACHED = PY + "studies/slope/monitoring.py", PY + "studies/slope/atta
 SERIES, BREAKS = (PY + f"records/{name}.py" for name in ("series", "breaks"))
 TIMES = PY + "measure/characteristic_times.py"
 SCALES, SLOPE, WORLDS, TOE = (PY + name for name in ("model/scales.py", "studies/slope/slope.py", "world/worlds.py", "measure/toe.py"))
-SECTION, READER, CHECKS, GEOMETRY, VALUES, HINTS = (
-    PY + f"{name}.py" for name in ("model/section/section", "model/section/reader", "model/section/checks", "model/geometry", "model/section/values", "model/section/hints")
+SECTION, READER, CHECKS, GEOMETRY, VALUES, STATED, HINTS = (
+    PY + f"{name}.py" for name in ("model/section/section", "model/section/reader", "model/section/checks", "model/geometry", "model/section/values", "model/section/stated", "model/section/hints")
 )
 RULES, DRIVER = PY + "course/slope.py", PY + "course/driver.py"
 CACHE = PY + "system/cache.py"
@@ -222,10 +222,10 @@ MUTANTS = (
            "--critical-slip sets that of slip and leaves the release", "plain:test_critical_slip.py::test_one_distance_is_set_for_all_that_weakens"),
     mutant("values-filled", PY + "model/section/building.py", "given = copy.deepcopy(document.data)\n    raw = document.data = section_defaults.filled(document.data)", "raw = given = document.data = section_defaults.filled(document.data)",
            "what was filled in counts as given: a time step stays with another gravity", "test_section_values.py::test_what_follows_follows"),
-    mutant("values-replaced", VALUES, "    if changed:\n", "    if False:\n", "what dataclasses.replace has changed is lost with the next value", "test_section_values.py::test_with_and_replace_count_as_given"),
-    mutant("values-groups", VALUES, "place[word] = {}", "pass", "a group of keys that the file has not cannot be varied", "test_section_values.py::test_groups_that_a_file_has_not_are_made"),
+    mutant("values-replaced", STATED, "    if changed:\n", "    if False:\n", "what dataclasses.replace has changed is lost with the next value", "test_section_values.py::test_with_and_replace_count_as_given"),
+    mutant("values-groups", STATED, "place[word] = {}", "pass", "a group of keys that the file has not cannot be varied", "test_section_values.py::test_groups_that_a_file_has_not_are_made"),
     mutant("values-rock", PY + "commands/section_arguments.py", 'materials.data(args.rock, "--rock")', 'materials.load(args.rock, "--rock")', "a sweep over the friction of --rock keeps the residual one", "test_section_values.py::test_arguments_of_a_command_are_given_values"),
-    mutant("values-original", VALUES, "similar.original_value(key, v, factor)", "v", "the section that a similar one is packed as gets values of the other size", "test_section_values.py::test_a_value_gives_what_a_file_with_it_gives[materials-*-tensile_strength0-what must be]"),
+    mutant("values-original", VALUES, "powers.original_value(key, v, factor)", "v", "the section that a similar one is packed as gets values of the other size", "test_section_values.py::test_a_value_gives_what_a_file_with_it_gives[materials-*-tensile_strength0-what must be]"),
     mutant("sweep-like", PY + "studies/slope/slope_run.py", "    if like:\n", "    if False:\n", "a slope of another size in a sweep gets a packing of its own", "test_section_values.py::test_a_run_of_a_similar_section_is_packed_as_its_original"),
     mutant("section-notes", CHECKS, " or release in slips.values()", "", "a section with one distance is said to have two",
            "plain:test_critical_slip.py::test_two_distances_are_noted_in_one_line"),
@@ -246,9 +246,9 @@ MUTANTS = (
     mutant("roles-chord", PY + "model/roles.py", "way[1] > 0 or", "way[1] < 0 or", "slopes fall upwards", "plain:test_roles.py::test_roles_follow_from_what_walls_do_and_not_from_their_names"),
     mutant("roles-mass", PY + "model/roles.py", 'if layer.role == "mass"]', "if layer]", "what a bed leans against is a backstop",
            "plain:test_roles.py::test_what_a_bed_leans_against_is_no_backstop"),
-    mutant("similar-strength", PY + "model/section/similar.py", '    "materials.tensile_strength": STRESS,\n', "",
+    mutant("similar-strength", PY + "model/section/powers.py", '    "materials.tensile_strength": STRESS,\n', "",
            "a smaller slope is as strong", "plain:test_roles.py::test_a_slope_of_another_size_has_the_scales_that_go_with_it"),
-    mutant("similar-time", PY + "model/section/similar.py", "(math.sqrt(factor) if power == 0.5 else factor) * value", "factor * value", "times go with lengths", "plain:test_roles.py::test_a_slope_of_another_size_has_the_scales_that_go_with_it"),
+    mutant("similar-time", PY + "model/section/powers.py", "(math.sqrt(factor) if power == 0.5 else factor) * value", "factor * value", "times go with lengths", "plain:test_roles.py::test_a_slope_of_another_size_has_the_scales_that_go_with_it"),
     mutant("similar-water", PY + "model/section/similar.py", '"dip": 0.0 - dip', '"dip": dip', "the water's plane is not mirrored", "plain:test_roles.py::test_a_mirrored_section_is_checked_like_any_other"),
     mutant("wall-side", PY + "studies/slope/wall_series.py", "(normal, self._side * shear, peak) for name", "(normal, shear, peak) for name", "shear of a slope to the left has the wrong sign",
            "test_any_slope.py::test_a_mirrored_slope_has_the_mirrored_bits"),
@@ -350,7 +350,7 @@ MUTANTS = (
     mutant("note-line", PY + "commands/__init__.py", "issubclass(category, UserNote)", "issubclass(category, FutureWarning)", "a note is printed with a line of code", "test_commands.py::test_a_note_is_one_line"),
     mutant("runs-begun", PY + "running/side_by_side.py", "resume and go_on and kept_runs.begun(r.folder, r.key, r.function)", "resume and go_on", "a run goes on from what other code has left",
            "test_side_by_side.py::test_a_resume_takes_nothing_of_other_engines_or_code"),
-    mutant("sweep-names", VALUES, "place[names.index(word)]", "place[-1]", "the last item of a list is varied, whatever its name",
+    mutant("sweep-names", STATED, "place[names.index(word)]", "place[-1]", "the last item of a list is varied, whatever its name",
            "test_campaign.py::test_items_of_lists_go_by_their_names_and_lists_are_values_too"),
     mutant("sweep-work", PY + "campaign/sweep.py", "float(sum(made.disk_counts()))", "1.0", "all runs of a sweep count as equally long",
            "test_campaign.py::test_all_combinations_are_planned_and_each_has_its_values"),
@@ -425,7 +425,7 @@ MUTANTS = (
            "the row that the engine would write is lost", "test_repeated_runs.py::test_a_run_goes_on_by_the_engine_and_back"),
     mutant("lessons-merged", "py/nonsmooth/studies/lessons.py", "for name, cases in kept.items()} | found", "for name, cases in kept.items() if not found} | found",
            "a lesson run alone drops the others", "test_lessons.py::test_a_lesson_that_is_run_alone_leaves_the_numbers_of_others"),
-    mutant("script-table-words", "py/nonsmooth/campaign/scripts.py", "and (numbers == width or cells == _cells(line))", "and numbers == width",
+    mutant("script-table-words", "py/nonsmooth/campaign/script_output.py", "and (numbers == width or cells == _cells(line))", "and numbers == width",
            "a table with words in it is not read", "test_plain_runs.py::test_tables_of_words_of_commas_and_of_one_column_are_read"),
     mutant("heap-restitution", "py/nonsmooth/studies/heaps/grains.py", "if self.restitution > 0:", "if self.restitution > 1:", "the soft world drops a restitution in silence",
            "test_columns.py::test_restitution_is_not_dropped_in_silence"),

@@ -356,11 +356,11 @@ MUTANTS = (
            "the ellipse of a soft bond is a circle",
            "test_soft.py::test_a_ductile_bond_yields_and_breaks_where_the_hard_one_does"),
     # ---- the paper's section 6, on a whole slope
-    mutant("paper-strong", "py/nonsmooth/world/scene.py", "criticalSlip=weak.critical_slip", "criticalSlip=1e9 * weak.critical_slip", "DP does not weaken with slip",
+    mutant("paper-strong", "py/nonsmooth/world/materials.py", "criticalSlip=weak.critical_slip", "criticalSlip=1e9 * weak.critical_slip", "DP does not weaken with slip",
            "test_verification.py::test_quick_form_of_a_long_check_holds[paper]"),
     mutant("paper-release", "pkg/dem/engines/PorePressureEngine.cpp", "(place - reference[id]).dot(downhill) > releaseDistance", "(reference[id] - place).dot(downhill) > releaseDistance",
            "water is released where disks have moved upslope", "test_verification.py::test_quick_form_of_a_long_check_holds[paper]"),
-    mutant("paper-friction", "py/nonsmooth/world/scene.py", "weakenedFrictionAngle=math.atan(weak.friction)", "weakenedFrictionAngle=math.atan(m.friction)", "DP keeps its friction beyond D_c",
+    mutant("paper-friction", "py/nonsmooth/world/materials.py", "weakenedFrictionAngle=math.atan(weak.friction)", "weakenedFrictionAngle=math.atan(m.friction)", "DP keeps its friction beyond D_c",
            "test_verification.py::test_quick_form_of_a_long_check_holds[paper]"),
     # ---- two bodies of given motion, and engines that steer
     mutant("given-answer", ENGINE, "seam.answerGivenMotion();", ";", "contacts of two driven bodies bear nothing", "test_given_pairs.py::test_a_bond_that_is_pulled_bears_its_tensile_strength"),

@@ -28,7 +28,7 @@ MUTANTS = (
     mutant("erosion-jump", WINDOWS, "speed * row > high - low", "speed * row > 2 * (high - low)", "a window may jump over disks", PLAIN + "::test_what_is_wrong_with_a_window_is_told"),
     mutant("erosion-mirror", SIMILAR, 'made["path"] = [[t, 0.0 - x, y] for t, x, y in window["path"]]', "pass", "the path of a mirrored window is not mirrored",
            PLAIN + "::test_a_mirrored_window_takes_the_mirrored_points"),
-    mutant("erosion-scaled", SIMILAR, '"erosion.path": (TIME, LENGTH, LENGTH)', '"erosion.path": (LENGTH, LENGTH, LENGTH)', "times of a path are lengths",
+    mutant("erosion-scaled", PY + "model/section/powers.py", '"erosion.path": (TIME, LENGTH, LENGTH)', '"erosion.path": (LENGTH, LENGTH, LENGTH)', "times of a path are lengths",
            PLAIN + "::test_a_similar_window_takes_the_same_points_at_its_own_times"),
     # ---- when it takes
     mutant("erosion-early", RULES, "now >= window.begin - 0.5 * seen.step", "now >= window.begin - 50 * seen.step", "a window takes before its begin",

@@ -2,8 +2,8 @@
 from mutant import mutant
 
 PY = "py/nonsmooth/"
-ANSWERS, PLAN, RESULTS, WALLS, SECTION = (
-    PY + name for name in ("studies/comparison/answers.py", "campaign/plan.py", "studies/slope/results.py", "studies/slope/wall_series.py", "model/section/section.py")
+ANSWERS, PLAN, RESULTS, FILES, WALLS, SECTION = (
+    PY + name for name in ("studies/comparison/answers.py", "campaign/plan.py", "studies/slope/results.py", "studies/slope/run_files.py", "studies/slope/wall_series.py", "model/section/section.py")
 )
 SAID, PLANNED, PARTS, ROWS = "plain:test_comparison_answers.py", "plain:test_plan.py", "plain:test_summary_parts.py", "test_wall_series.py"
 
@@ -57,9 +57,9 @@ MUTANTS = (
            PARTS + "::test_what_a_bed_gives_and_what_lies_beyond_the_foot"),
     mutant("results-mass", RESULTS, "np.isin(end.layer, ground.mass)", "~np.isin(end.layer, beds)", "an obstacle is of the mass", PARTS + "::test_what_a_bed_gives_and_what_lies_beyond_the_foot"),
     mutant("results-walls", RESULTS, "if math.isfinite(value)}", "}", "a wall whose loss nobody told has one that is none", PARTS + "::test_what_slides_on_each_wall_is_that_of_its_last_row"),
-    mutant("results-later", RESULTS, "int(path.stem) > step", "int(path.stem) >= step", "a resumed run loses the snapshot of its checkpoint",
+    mutant("results-later", FILES, "int(path.stem) > step", "int(path.stem) >= step", "a resumed run loses the snapshot of its checkpoint",
            PARTS + "::test_a_resumed_run_forgets_what_it_has_not_reached"),
-    mutant("results-begin", RESULTS, '(stage in ("settle", "dry"))', '(stage == "settle")', "a run resumed in its dry rest keeps the t0 of another", PARTS + "::test_a_resumed_run_forgets_what_it_has_not_reached"),
+    mutant("results-begin", FILES, '(stage in ("settle", "dry"))', '(stage == "settle")', "a run resumed in its dry rest keeps the t0 of another", PARTS + "::test_a_resumed_run_forgets_what_it_has_not_reached"),
     mutant("results-leans", RESULTS, 'if end is None or not (leans or name != "fb_normal_N_per_m")', "if end is None", "a slope without a backstop has a force on it",
            PARTS + "::test_without_a_backstop_there_is_no_force_on_one"),
     mutant("fronts-share", PY + "measure/fronts.py", "def front(snapshot, side=1.0, share=0.999,", "def front(snapshot, side=1.0, share=0.99,", "figures have another front than the summary",

@@ -79,7 +79,7 @@ MUTANTS = (
     mutant("shaken-starting", SECTION, "motion if motion.times[0] == 0.0 else motion.starting(0.0)", "motion", "a record begins by its own clock", "plain:test_shaken_sections.py"),
     mutant("shaken-content", SECTION, "known = {\"sha256\": shaking.record} if shaking.record else {}", "known = {}", "a run is taken for that of another record under the same name",
            "plain:test_shaken_sections.py"),
-    mutant("shaken-size", PY + "model/section/similar.py", '    "shaking.stretch": TIME,\n', "", "a larger slope is shaken as fast", "plain:test_shaken_sections.py"),
+    mutant("shaken-size", PY + "model/section/powers.py", '    "shaking.stretch": TIME,\n', "", "a larger slope is shaken as fast", "plain:test_shaken_sections.py"),
     mutant("based-null", PY + "model/section/based.py", "if value is None:", "if False:", "null takes nothing away", "plain:test_based_sections.py"),
     mutant("based-deep", PY + "model/section/based.py", "made[key] = merged(made[key], value)", "made[key] = value", "a group of keys takes the place of the base's", "plain:test_based_sections.py"),
     mutant("shaken-t0", EXPERIMENT, "self.slope.shaking.begin, self.slope.shaking.dead = start + self.section.shaking.begin, False", "self.slope.shaking.begin, self.slope.shaking.dead = start, False",

@@ -92,7 +92,7 @@ MUTANTS = (
     mutant("surface-direction", PLACES, "if np.hypot(*(last - near)) < np.hypot(*(first - near)):", "if False:", "cells lie from the other end on", "plain:test_surfaces.py"),
     mutant("surface-arrays", ARRAYS, "values[mine].reshape(times, count)", "values[mine].reshape(count, times).T", "cells and times are exchanged", "plain:test_surfaces.py"),
     mutant("surface-arrays-unknown", ARRAYS, "if not np.isnan(table).all():", "if True:", "what a law does not know is there", "plain:test_surfaces.py"),
-    mutant("surface-arrays-stale", EXPERIMENT, 'remove([self.folder / results.SURFACE_ARRAYS], "of an earlier end of the run")', "pass", "arrays of an earlier end stay while a run goes on", "test_heated_slopes.py"),
+    mutant("surface-arrays-stale", EXPERIMENT, 'remove([self.folder / run_files.SURFACE_ARRAYS], "of an earlier end of the run")', "pass", "arrays of an earlier end stay while a run goes on", "test_heated_slopes.py"),
     mutant("surface-set-back", ARRAYS, "(np.diff(one[\"slip_m\"], axis=0) < 0)", "(np.diff(one[\"slip_m\"], axis=0) < -np.inf)", "what settling has slid is shown", "plain:test_surfaces.py", "plain:test_figures_slip_surface.py"),
     mutant("surface-scale", PICTURE, "vmin=low, vmax=high", "vmin=None, vmax=None", "each wall has a scale of its own", "plain:test_figures_slip_surface.py"),
     mutant("surface-least", PICTURE, "max(high, low + LEAST)", "high", "rounding looks hot where nothing slides", "plain:test_figures_slip_surface.py"),
@@ -104,7 +104,7 @@ MUTANTS = (
            "ground with a slip law counts as a slip surface", "test_heated_slopes.py"),
     mutant("surface-begins", "py/nonsmooth/measure/characteristic_times.py", '(series[CELLS] >= WEAKENED_LOAD) & (series["time_s"] >= state["t0"])', "series[CELLS] >= WEAKENED_LOAD",
            "a surface that weakened while it settled weakens before the water", "test_results.py"),
-    mutant("surface-length", "py/nonsmooth/world/scene.py", "cellLength=m.slip_law.cell_length", "cellLength=0.0", "a section's cells have the length of any", "test_section_keys.py"),
+    mutant("surface-length", "py/nonsmooth/world/materials.py", "cellLength=m.slip_law.cell_length", "cellLength=0.0", "a section's cells have the length of any", "test_section_keys.py"),
     # ---- slopes that heat
     mutant("heated-after", HEATED, '"after_s": time - start', '"after_s": time', "time counts from the beginning of the run", "plain:test_heated_surface.py"),
     mutant("heated-creep", HEATED, "np.flatnonzero(speed < BEGIN).max(initial=0)", "np.flatnonzero(speed >= BEGIN).min(initial=0)", "creep counts as the slide",

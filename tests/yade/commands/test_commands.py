@@ -22,7 +22,7 @@ from yade.nonsmooth import commands, errors, records, scene
 from yade.nonsmooth.laboratory import calibration, campaign, materials
 from yade.nonsmooth.records import checkpoints
 from yade.nonsmooth.running import interrupts, side_by_side
-from yade.nonsmooth.studies.slope import results
+from yade.nonsmooth.studies.slope import results, run_files
 from yade.nonsmooth.system import keys, output_folder, whole_files
 from yade.nonsmooth.world import stepping
 from yade.wrapper import NonsmoothTimeStepper
@@ -290,11 +290,11 @@ def test_an_old_run_is_taken_away_with_its_result_first(tmp_path, monkeypatch):
 
 def test_a_fresh_run_takes_all_records_of_the_old_one_away_and_nothing_else(tmp_path):
     old = (
-        results.SUMMARY,
-        results.BREAKS,
-        results.BEGIN,
-        results.END,
-        *results.FIGURES,
+        run_files.SUMMARY,
+        run_files.BREAKS,
+        run_files.BEGIN,
+        run_files.END,
+        *run_files.FIGURES,
         "snapshots/00000100.npz",
         "vtk/disks-00000100.vtu",
         "vtk/avalanche.pvd",
@@ -305,7 +305,7 @@ def test_a_fresh_run_takes_all_records_of_the_old_one_away_and_nothing_else(tmp_
     for name in (*old, *own):
         (tmp_path / name).parent.mkdir(exist_ok=True)
         (tmp_path / name).write_text("")
-    results.forget(tmp_path)
+    run_files.forget(tmp_path)
     assert sorted(path.relative_to(tmp_path).as_posix() for path in tmp_path.rglob("*") if path.is_file()) == sorted(
         own
     )

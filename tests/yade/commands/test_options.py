@@ -697,7 +697,7 @@ def test_checks_are_listed(in_process):
         ("readings.py", ("--platens", "glued"), "glued"),
         ("paper.py", ("--only", "shipped", "colour"), "colour"),
         ("paper.py", ("--only", "shipped", "shipped"), "each once"),
-        ("paper.py", ("--seeds", 1, 1), "seeds 1, 1: give one or more, each once"),
+        ("paper.py", ("--seeds", 1, 1), "--seeds: 1 1: give each once"),
         ("paper.py", ("--seeds", -1), "seeds -1: give whole numbers from 0"),
         ("paper.py", ("--disks", 0), "disks 0: give a whole number from 1"),
         ("wedge.py", ("--seconds", 0.5), "--seconds: 0.5 is too short"),

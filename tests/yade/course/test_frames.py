@@ -153,7 +153,7 @@ class Run:
     def resume(self):
         """From the last checkpoint, as a process that does not know what came after."""
         self.at = self.mark
-        for path in self.folder.glob("snapshots/*.npz"):  # see results.forget_later
+        for path in self.folder.glob("snapshots/*.npz"):  # see run_files.forget_later
             if int(path.stem) > self.rows[self.at - 1]["step"]:
                 path.unlink()
         self.frames = frames.Frames(self.folder, QUICK, columns(self.rows[: self.at]), self.states[self.at - 1][1])

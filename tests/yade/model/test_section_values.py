@@ -13,7 +13,7 @@ from test_section_keys import BASE, SCHEMA, WHERE
 from yade.nonsmooth import campaign, packing, section, section_values, similar
 from yade.nonsmooth.commands import section_arguments
 from yade.nonsmooth.laboratory import materials
-from yade.nonsmooth.model.section import data as section_data, reader as section_reader
+from yade.nonsmooth.model.section import data as section_data, powers as section_powers, reader as section_reader
 from yade.nonsmooth.studies.slope import slope_run
 
 # with the numbers as a section file has them
@@ -270,7 +270,7 @@ def test_a_value_grows_with_the_slope_as_its_unit_does():
         if key == "erosion.path":  # of triples
             powers = [*powers, UNITS["m"]]
         found[key] = tuple(powers) if len(powers) > 1 else powers[0] if powers else 0
-    assert {key: power for key, power in found.items() if power} == similar.POWERS
+    assert {key: power for key, power in found.items() if power} == section_powers.POWERS
 
 
 @pytest.mark.parametrize(

@@ -9,7 +9,7 @@ import pytest
 import slope_scenes
 from yade import O
 from yade.nonsmooth import experiment, records, run_figures, section
-from yade.nonsmooth.studies.slope import results
+from yade.nonsmooth.studies.slope import results, run_files
 
 FILES = (
     "summary.json",
@@ -129,7 +129,7 @@ def test_a_file_that_no_run_has_left_is_neither_removed_nor_written_over(small, 
     put(tmp_path, name)
     before = {path: path.read_bytes() for path in tmp_path.rglob("*") if path.is_file()}
     told = name.removesuffix("/mine")
-    assert results.foreign(tmp_path) == told
+    assert run_files.foreign(tmp_path) == told
     O.reset()
     for begin in (lambda: experiment.begin(small, tmp_path), lambda: run(small, tmp_path, 0.1)):
         with pytest.raises(records.RecordsError, match=f"holds {told}, which no run has left there.*an empty folder"):
@@ -146,7 +146,7 @@ def test_files_of_a_user_beside_those_of_a_run_stay(small, tmp_path):
     put(tmp_path, *own)
     mine = ("mine.txt", "vtk/mine.vtu", "snapshots/best.npz", "snapshots/12345.npz")
     put(tmp_path, *mine)
-    assert results.foreign(tmp_path) is None
+    assert run_files.foreign(tmp_path) is None
     run(small, tmp_path, 0.1)
     assert all((tmp_path / name).exists() for name in mine)
     assert not any((tmp_path / name).exists() for name in own)
@@ -155,13 +155,13 @@ def test_files_of_a_user_beside_those_of_a_run_stay(small, tmp_path):
 def test_a_run_that_was_killed_while_it_began_is_known(tmp_path):
     (tmp_path / "series.csv").write_bytes(b"")
     (tmp_path / "energy.png").write_bytes(b"old")
-    assert results.foreign(tmp_path) is None
+    assert run_files.foreign(tmp_path) is None
     (tmp_path / "series.csv").write_text("step,time_s,stage\n")
-    assert results.foreign(tmp_path) is None
+    assert run_files.foreign(tmp_path) is None
     (tmp_path / "series.csv").write_text("time,way\n")
-    assert results.foreign(tmp_path) == "series.csv"
+    assert run_files.foreign(tmp_path) == "series.csv"
     (tmp_path / "key").write_text("")
-    assert results.foreign(tmp_path) is None
+    assert run_files.foreign(tmp_path) is None
 
 
 def test_a_run_that_has_not_been_summarised_is_drawn(small, tmp_path):

@@ -146,9 +146,9 @@ def block(folder, disks, seed):
 def _failing(folder, axes, title):
     """Draws the disks of a run when it moves, darker the farther they have gone."""
     from ... import records
-    from ...studies.slope import results
+    from ...studies.slope import run_files
 
-    begin = records.read_snapshot(folder / results.BEGIN)
+    begin = records.read_snapshot(folder / run_files.BEGIN)
     kept = [p for p in whole_files.list_of(folder / "snapshots") if p.suffix == ".npz" and p.stem.isdecimal()]
     shots = sorted(kept, key=lambda p: int(p.stem))
     for path in shots:

@@ -13,7 +13,7 @@ from ...measure.ground import ground_of
 from ...measure.statistics import Estimate, over_seeds
 from ...measure.weakening import foot_length, weakened_share
 from ...model import scales, section
-from ...studies.slope import results
+from ...studies.slope import run_files
 from . import Claims, Findings, check
 from .cases import folder_of, run_cases
 
@@ -121,7 +121,7 @@ def avalanche(folder, disks, seed):
     slid, lost = summary["sliding_on_walls_J_per_m"], summary["energy_dissipated_J_per_m"]
     return (
         summary
-        | {"wedge_m": wedge(chosen, records.read_snapshot(folder / results.END))}
+        | {"wedge_m": wedge(chosen, records.read_snapshot(folder / run_files.END))}
         | {f"friction_{wall}_rel": work / lost for wall, work in slid.items()}
     )
 

@@ -17,7 +17,7 @@ from ... import figures, records
 from ...measure import newmark
 from ...model import section
 from ...model.ground_motion import GroundMotion
-from ...studies.slope import experiment, results
+from ...studies.slope import experiment, run_files
 from ...system.whole_files import empty
 from ...world import shaking, tables
 from ...world.stepping import advance
@@ -188,7 +188,7 @@ def shaken_slope(bench):
     course = experiment.begin(made, folder)
     course.run(stands=True)
     series = records.read_series(folder / "series.csv")
-    t = series["time_s"] - records.read_snapshot(folder / results.BEGIN).time_s - made.shaking.begin
+    t = series["time_s"] - records.read_snapshot(folder / run_files.BEGIN).time_s - made.shaking.begin
     motion = made.shaking.motion
     exact = newmark.slide(newmark.Block(30, 0.75, gravity=made.gravity), motion)
     slip, after = series["displacement_m:plane"], t > 0

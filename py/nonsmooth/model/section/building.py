@@ -13,12 +13,11 @@ from . import (
     defaults as section_defaults,
     erosion,
     shaking as section_shaking,
+    stated,
     units as section_units,
-    values as section_values,
     water as section_water,
     water_release,
 )
-from .section import Section
 from .parts import (
     Disks,
     End,
@@ -38,8 +37,10 @@ from .parts import (
 __all__ = ["build", "material_from"]
 
 
-def build(document, source: str) -> Section:
-    """Section from a document that meets the schema; the checks that a schema cannot make."""
+def build(document, source: str, section_class):
+    """Section from a document that meets the schema; the checks that a schema cannot make. ``section_class``:
+    Section, which makes others like itself from here, and so stands above.
+    """
     section_checks.check_extent(document)
     _take_old_names(document)
     section_shaking.complete(document)
@@ -66,7 +67,7 @@ def build(document, source: str) -> Section:
         for v in raw.get("interfaces", ())
     )
     stages = raw["stages"]
-    section = Section(
+    section = section_class(
         name=raw["name"],
         description=raw.get("description", "").strip(),
         gravity=float(raw["gravity"]),
@@ -107,7 +108,7 @@ def build(document, source: str) -> Section:
         section_checks.check_release(section, document)
         section_checks.check_pressures(section, document)
     section = dataclasses.replace(section, erosion=erosion.windows(section, document))
-    section = section_values.keep(section, given)
+    section = stated.keep(section, given)
     section = section.with_disks(size["count"]) if "count" in size else section
     section_checks.check_cells(section, document)
     return section
@@ -207,7 +208,7 @@ def material_from(name: str, raw: dict, document, keys=()) -> Material:
     )
 
 
-def _water(raw: dict, section: Section, document) -> Water:
+def _water(raw: dict, section, document) -> Water:
     plane, wall = raw["plane"], None
     if isinstance(plane, str):
         names = [w.name for w in section.walls]

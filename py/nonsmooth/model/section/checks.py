@@ -9,7 +9,6 @@ from shapely.geometry import LineString, MultiPoint
 
 from .. import geometry, rocks
 from . import erosion
-from .section import Section
 from .parts import Layer, Wall, points_of
 
 __all__ = ["check", "check_extent", "check_release", "check_roles", "notes", "walls"]
@@ -52,7 +51,7 @@ def walls(document) -> tuple[Wall, ...]:
     return tuple(result)
 
 
-def check(section: Section, document) -> None:
+def check(section, document) -> None:
     """Raise SectionError at the first thing wrong with `section`."""
     _check_names(section, document)
     _check_interfaces(section, document)
@@ -77,7 +76,7 @@ def check(section: Section, document) -> None:
         )
 
 
-def check_roles(section: Section, document) -> None:
+def check_roles(section, document) -> None:
     """Raise SectionError for a section whose walls are no slip surface: nothing says then which way its slope falls."""
     for i, interface in enumerate(section.interfaces):
         if interface.role == "slip" and len(section.line_of(interface)) < 2:
@@ -95,7 +94,7 @@ def check_roles(section: Section, document) -> None:
     )
 
 
-def check_release(section: Section, document) -> None:
+def check_release(section, document) -> None:
     """Raise SectionError for a section with water whose release goes by the critical slip, of which there are
     several.
     """
@@ -109,7 +108,7 @@ def check_release(section: Section, document) -> None:
     )
 
 
-def notes(section: Section) -> list[str]:
+def notes(section) -> list[str]:
     """Sentences on what is allowed, and may not be meant: a release from water by another distance than the critical
     slip, where the paper has one for both; water that runs up the slope; windows that meet no layer; slip laws with
     more friction than the mass has; and what materials that are asked for by cohesion and angle of friction are made
@@ -188,7 +187,7 @@ def _rock_notes(section):
             )
 
 
-def check_cells(section: Section, document) -> None:
+def check_cells(section, document) -> None:
     """Refuses cells of slip laws that are shorter than a disk: most would have no contact."""
     least = math.sqrt(section.disks.mean_square)
     for wall in section.with_slip_law:
@@ -201,7 +200,7 @@ def check_cells(section: Section, document) -> None:
             )
 
 
-def check_pressures(section: Section, document) -> None:
+def check_pressures(section, document) -> None:
     """Refuses water that leaves a disk after a way where a slip law has a pore pressure of its own: the weight that it
     gives back would come in the middle of weakening.
     """

@@ -48,7 +48,7 @@ def load(path_or_name) -> Section:
                 f"{path}: neither a file nor a shipped section; give a path or one of: " f"{', '.join(shipped())}"
             )
         path = FOLDER / f"{path.name}.yaml"
-    return building.build(read(path, SCHEMA), str(path))
+    return building.build(read(path, SCHEMA), str(path), Section)
 
 
 def of(data: Mapping | None = None, source: str = "section", **keys) -> Section:
@@ -59,4 +59,4 @@ def of(data: Mapping | None = None, source: str = "section", **keys) -> Section:
     """
     if not (data is None or isinstance(data, Mapping)):
         raise SectionError(f"{source}: data {checks.shown(data)}: give a dictionary with the keys of a section file")
-    return building.build(take({**(data or {}), **keys}, source, SCHEMA), source)
+    return building.build(take({**(data or {}), **keys}, source, SCHEMA), source, Section)

@@ -14,7 +14,7 @@ import numpy as np
 
 from ...system import checks
 from .. import free_surface, geometry, roles, stacks
-from . import data as section_data, values as section_values
+from . import data as section_data, stated, values as section_values
 from .erosion import Window
 from .field_water import FieldWater
 from .parts import Disks, Envelope, Interface, Layer, Material, Numerics, Stages, Wall, Water, normal_of
@@ -35,7 +35,7 @@ class Section:
     """A checked section. `pressed`: its packing is pressed, see :mod:`.slope_packing`; `unusual`: keys of values that
     are meant, see :mod:`.section_units`; `erosion`: windows that take disks out; `source`: file read; `scale`:
     diameters by those of the file; `like`: a section that is packed instead, and the factor by which its disks are then
-    as large (see :mod:`.similar`), or None; `given`: what it was made from, see :mod:`.section_values`."""
+    as large (see :mod:`.similar`), or None; `given`: what it was made from, see :mod:`.stated`."""
 
     name: str
     description: str
@@ -56,7 +56,7 @@ class Section:
     shaking: Shaking | None = None
     scale: float = 1.0
     like: tuple[Section, float] | None = dataclasses.field(default=None, compare=False, repr=False)
-    given: section_values.Given | None = dataclasses.field(default=None, compare=False, repr=False)
+    given: stated.Given | None = dataclasses.field(default=None, compare=False, repr=False)
 
     @cached_property
     def bounds(self) -> tuple[float, float, float, float]:
@@ -325,10 +325,8 @@ class Section:
         if checks.number(f"{self.source}: disks", count, SectionError, remedy, least=1, most=MOST_DISKS) != int(count):
             raise SectionError(f"{self.source}: disks {count!r}: {remedy}")
         if self.like:
-            from . import similar
-
-            made = similar.with_disks_of(self, self.like[0].with_disks(count), self.like[1])
-            return section_values.keep_value(made, self, "disks.count", int(count))
+            made = self._packed_as(self.like[0].with_disks(count), self.like[1])
+            return stated.keep_value(made, self, "disks.count", int(count))
         if self.disks.count:  # from the diameters that were given
             return self.with_values({"disks.count": int(count)})
         m = self.disks.mean_square
@@ -358,7 +356,15 @@ class Section:
                 f"{self.source}: {count} disks: the smallest, {scaled.smallest:.4g} m, would fall past its own diameter in a step of "
                 f"{self.numerics.time_step:g} s; lower numerics.time_step below {scaled.longest_step:.2g} s, or ask for fewer disks"
             )
-        return section_values.keep_value(scaled, self, "disks.count", int(count))
+        return stated.keep_value(scaled, self, "disks.count", int(count))
+
+    def _packed_as(self, original: Section, factor: float) -> Section:
+        layers = tuple(
+            dataclasses.replace(mine, disks=theirs.with_disks(factor).disks)
+            for mine, theirs in zip(self.layers, original.layers)
+        )
+        disks = original.disks.scaled(factor)
+        return dataclasses.replace(self, disks=disks, layers=layers, scale=original.scale, like=(original, factor))
 
     def with_rock(self, rock: Material | Mapping) -> Section:
         """The same slope with all layers of `rock`; the names of their materials stay.

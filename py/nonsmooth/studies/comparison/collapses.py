@@ -131,6 +131,9 @@ _RUN = {"column": run_column, "pile": run_pile}
 
 
 def _run(kind, folder, case):
+    """Runs a case. Its records are ``record.npz`` and no Snapshots, which have no contact of two bodies that both stay:
+    springs between glued disks of a rough floor press by rounding, and count among the forces.
+    """
     from ...world import worlds
     from ..heaps import course, study
 

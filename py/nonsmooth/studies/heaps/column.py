@@ -10,7 +10,8 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
-from .grains import Heap, __getattr__  # noqa: F401
+from .grains import Heap
+from .in_yade import __getattr__  # noqa: F401
 
 __all__ = ["Column", "GranularColumn", "build", "run"]
 

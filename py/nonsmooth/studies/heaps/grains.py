@@ -208,14 +208,3 @@ def sizes_along(heap, length, side):
         found.append(d / 2)
         reached += d
     return np.array(found)
-
-
-def __getattr__(name):
-    """``build`` and ``run`` of :mod:`.course` for the kinds of heaps: they need YADE, and are imported when they are
-    asked for.
-    """
-    if name in ("build", "run"):
-        from . import course
-
-        return getattr(course, name)
-    raise AttributeError(f"the modules of heaps have no attribute {name!r}")

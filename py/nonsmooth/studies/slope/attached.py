@@ -16,8 +16,6 @@ from .error import ExperimentError
 
 __all__ = ["attach", "come_to", "detach", "others", "row"]
 
-COMMAND = "import yade.nonsmooth.experiment; yade.nonsmooth.experiment.row()"
-
 
 def come_to(end):
     """Whether less than half a step is missing to the time ``end`` [s]."""
@@ -29,9 +27,11 @@ def others():
     return [e for e in O.engines if not isinstance(e, CourseRunner)]
 
 
-def attach(course):
-    """Makes a CourseRunner, through which the rows of an Experiment come, the first of O.engines; returns it."""
-    runner = CourseRunner(label="slopeCourse", command=COMMAND)
+def attach(course, command):
+    """Makes a CourseRunner, through which the rows of an Experiment come, the first of O.engines; returns it.
+    ``command``: Python that calls :func:`row`.
+    """
+    runner = CourseRunner(label="slopeCourse", command=command)
     runner.course = course
     O.engines = [runner, *others()]
     _wait(runner)

@@ -35,14 +35,17 @@ from ...system.whole_files import remove
 from ...water import WaterError, field_files, of_section
 from ...world import pore_pressure, tables, worlds
 from ...world.stepping import advance
-from . import attached, frames, results, slope, slope_packing
-from .attached import come_to, row  # noqa: F401  a scene's CourseRunner calls experiment.row
+from . import attached, frames, results, run_files, slope, slope_packing
+from .attached import come_to, row  # noqa: F401  ROW calls it
 from .columns import COLUMNS
 from .error import ArgumentError, EndError, ExperimentError
 from .monitoring import SlopeMonitor
 from .water_release import WaterRelease
 
 __all__ = ["ArgumentError", "EndError", "Experiment", "ExperimentError", "State", "COLUMNS", "begin", "resume"]
+
+# what a CourseRunner calls: saved scenes have it, and know this module by its public name
+ROW = "import yade.nonsmooth.experiment; yade.nonsmooth.experiment.row()"
 
 
 class Experiment(driver.Course):
@@ -61,7 +64,7 @@ class Experiment(driver.Course):
             raise UserError(f"built {checks.shown(built)}: give a Slope, as slope.build(section) returns one")
         folder = checks.path("folder", folder, UserError, "give the path of a folder")
         if state is None:
-            results.check_folder(folder)
+            run_files.check_folder(folder)
         self.field = of_section.field(built.section) if field is None else field
         self.monitor = SlopeMonitor(built, layers, self.field)
         self.hard, self.layers = self.monitor.hard, self.monitor.layers
@@ -76,7 +79,7 @@ class Experiment(driver.Course):
         self.unsaved = None if self.hard else "a slope of soft contacts"
         if state is None:
             checkpoints.forget(self.folder)  # before anything is written that it would not belong to
-            results.forget(self.folder)
+            run_files.forget(self.folder)
             with contextlib.suppress(OSError):  # the series says what is wrong with the folder
                 self.folder.mkdir(parents=True, exist_ok=True)
         self.series = records.SeriesWriter(
@@ -86,14 +89,14 @@ class Experiment(driver.Course):
             kept = of_section.kept(self.section, self.field, self.folder)
             section_data.write(kept, self.folder / section_data.FILE)
         self.walls = self.monitor.open_walls(self.folder / "walls.csv", mark and mark["walls"])
-        self.eroding = self.monitor.open_ledger(self.folder / results.LEDGER, mark and mark["eroded"])
-        self.surfaces = self.monitor.open_surfaces(self.folder / results.SURFACE, mark and mark["slip_surface"])
+        self.eroding = self.monitor.open_ledger(self.folder / run_files.LEDGER, mark and mark["eroded"])
+        self.surfaces = self.monitor.open_surfaces(self.folder / run_files.SURFACE, mark and mark["slip_surface"])
         if state is None:
             self.frames = frames.Frames(self.folder, self.section)
         else:
-            results.forget_later(self.folder, state.stage, O.iter)
+            run_files.forget_later(self.folder, state.stage, O.iter)
             if state.t0 is not None:
-                self.monitor.note_begin(self.folder / results.BEGIN)
+                self.monitor.note_begin(self.folder / run_files.BEGIN)
             rows = records.read_series(self.folder / "series.csv")
             self.frames = frames.Frames(self.folder, self.section, rows, asdict(state))
         super().__init__(self.series, self.walls.file, *(one.file for one in (self.eroding, self.surfaces) if one))
@@ -171,7 +174,7 @@ class Experiment(driver.Course):
         """
         from . import run_figures  # brings matplotlib, which a run that draws nothing need not wait for
 
-        path = self.folder / results.SUMMARY
+        path = self.folder / run_files.SUMMARY
         summary = json.loads(path.read_text()) if path.exists() else self.summarise()
         return run_figures.draw(self.folder, self.section, summary)
 
@@ -189,7 +192,7 @@ class Experiment(driver.Course):
             )
         self._open()
         self.stands = stands
-        return attached.attach(self)
+        return attached.attach(self, ROW)
 
     def row_came(self, row, simulated, seconds):
         """The steps up to a row, its number, have been made by an engine: what they simulated, and took [s]."""
@@ -228,12 +231,12 @@ class Experiment(driver.Course):
 
     def _open(self):
         super()._open()
-        remove([self.folder / results.SURFACE_ARRAYS], "of an earlier end of the run")
+        remove([self.folder / run_files.SURFACE_ARRAYS], "of an earlier end of the run")
 
     def _finish(self):
         self.checkpoint()
         if self.surfaces is not None:
-            self.surfaces.write_arrays(self.folder / results.SURFACE_ARRAYS)
+            self.surfaces.write_arrays(self.folder / run_files.SURFACE_ARRAYS)
 
     def _decide(self, seen):
         """Goes on to the next state, and does what the change means."""
@@ -305,8 +308,8 @@ class Experiment(driver.Course):
         """It is t0."""
         disks = tables.bodies(self.slope.solver)
         self.state.front0 = self.monitor.front(disks)
-        self.snapshot(self.folder / results.BEGIN, contacts=True)
-        self.monitor.note_begin(self.folder / results.BEGIN)
+        self.snapshot(self.folder / run_files.BEGIN, contacts=True)
+        self.monitor.note_begin(self.folder / run_files.BEGIN)
         start = course.loads_since(self.state)
         if self.slope.shaking is not None and start is not None:
             self.slope.shaking.begin, self.slope.shaking.dead = start + self.section.shaking.begin, False
@@ -379,7 +382,7 @@ def begin(section, folder, progress=None, packing=None, world=None, damping_movi
         worlds.check(world)
     worlds.check_damping("hard" if world is None else world, damping_moving)
     folder = Path(folder)
-    results.check_folder(folder)
+    run_files.check_folder(folder)
     field = of_section.field(section)
     folder.mkdir(parents=True, exist_ok=True)
     began = time.monotonic()

@@ -17,7 +17,7 @@ from ...measure.characteristic_times import chosen_rows
 from ...model import roles, scales
 from ...system import checks
 from ...water import field_files, of_section, phreatic, section_seepage
-from . import frames, results, verdict
+from . import frames, results, run_files, verdict
 from .columns import PERMANENT
 
 __all__ = ["Drawing", "draw"]
@@ -52,13 +52,13 @@ class Drawing:
     @cached_property
     def first(self):
         """The Snapshot before the water rises; None where the slope never stood then."""
-        path = self.folder / results.BEGIN
+        path = self.folder / run_files.BEGIN
         return records.read_snapshot(path) if path.exists() and self.failed_dry is None else None
 
     @cached_property
     def last(self):
         """That of the end; None where the run has not come so far."""
-        path = self.folder / results.END
+        path = self.folder / run_files.END
         return records.read_snapshot(path) if path.exists() else None
 
     @cached_property
@@ -109,10 +109,10 @@ class Drawing:
         return found
 
     def figure(self, name, path=None):
-        """One of results.PICTURES: the matplotlib Figure, or the ``path`` that it is written to; None where the records
-        do not show it. Raises records.RecordsError for another name."""
-        if name not in results.PICTURES:
-            raise records.RecordsError(f"figure {checks.shown(name)}: give one of {', '.join(results.PICTURES)}")
+        """One of run_files.PICTURES: the matplotlib Figure, or the ``path`` that it is written to; None where the
+        records do not show it. Raises records.RecordsError for another name."""
+        if name not in run_files.PICTURES:
+            raise records.RecordsError(f"figure {checks.shown(name)}: give one of {', '.join(run_files.PICTURES)}")
         if name == "forces":
             said = verdict.TITLES.get(self.verdict)
             return figures.forces_against_time(
@@ -159,7 +159,7 @@ class Drawing:
         """Nothing where no wall has a slip law, or nothing has slid on one since the slope settled."""
         if not self.section.with_slip_law:
             return None
-        cells = records.read_surfaces(self.folder / results.SURFACE)
+        cells = records.read_surfaces(self.folder / run_files.SURFACE)
         since = records.since_set_back(records.surface_arrays(cells))
         slid = any(one["slip_m"].any() for one in since.values())
         return figures.slip_surface(cells, path, times=self.times) if slid else None
@@ -176,7 +176,7 @@ class Drawing:
         """Nothing where no window has taken disks out."""
         if not self.section.erosion:
             return None
-        ledger = records.read_eroded(self.folder / results.LEDGER)
+        ledger = records.read_eroded(self.folder / run_files.LEDGER)
         if not len(ledger["disk"]):
             return None
         return figures.erosion(self.first, ledger, self.section, self.series, path, times=self.times)
@@ -239,7 +239,9 @@ def draw(folder, section, summary, progress=None) -> tuple[list[Path], list[str]
     if drawing.verdict == verdict.STOOD:
         notes.append("no figures of the toe's failure and of a deposit: the slope stood")
     made = [
-        path for name in results.PICTURES if (path := drawing.figure(name, drawing.folder / f"{name}.png")) is not None
+        path
+        for name in run_files.PICTURES
+        if (path := drawing.figure(name, drawing.folder / f"{name}.png")) is not None
     ]
     if drawing.video_shots:
         with ThreadPoolExecutor(1) as beside:  # it mostly compresses, while the video is mostly drawn

@@ -20,7 +20,7 @@ from ...model import section
 from ...model.section import checks as section_checks
 from ...packing import checks as packing_checks
 from ...system import output_folder
-from . import experiment, results, slope_packing, verdict
+from . import experiment, run_files, slope_packing, verdict
 
 __all__ = ["run"]
 
@@ -120,7 +120,7 @@ def run(name, about, default=None):
         args.out or f"out/{Path(args.section).stem}{'-mirrored' * args.mirror}{f'-{args.size:g}' if args.size else ''}"
     )
     if not args.resume:
-        results.check_folder(out)
+        run_files.check_folder(out)
     output_folder.claim(out, name)
     if args.resume:
         course = experiment.resume(s, out)

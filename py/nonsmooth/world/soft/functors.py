@@ -33,7 +33,7 @@ from yade.wrapper import (
 )
 
 from ...model.section import Material
-from .. import scene
+from .. import materials
 from .parameters import SoftError, refuse_closing
 
 __all__ = ["engines", "engines_of", "material", "wall_material"]
@@ -63,7 +63,7 @@ def wall_material(e, wall, **others):
         refuse_closing(f"material {wall.name}: bonds_close true", wall.bonds_close)
         if wall.slip_law is not None:
             raise SoftError(f"material {wall.name}: slip_law, which no soft model has; take it away")
-        return scene.wall_material(wall, **{**options, **others})
+        return materials.wall_material(wall, **{**options, **others})
     return NscdMat(
         **{**options, **dict(density=e.material.density, frictionAngle=math.atan(wall), wall=True, layer=-1), **others}
     )

@@ -7,7 +7,7 @@ import math
 from yade import O
 from yade.wrapper import CohFrictPhys, FrictPhys, JCFpmPhys, NscdMat, WallPhys
 
-from .. import scene
+from .. import materials
 from .bonds import bonded, set_thresholds, weaken
 
 __all__ = ["change"]
@@ -22,7 +22,7 @@ def change(world, pairs):
     equivalents = {}
     for present, m in pairs:
         if isinstance(present, NscdMat):
-            scene.set_strengths(m, present)
+            materials.set_strengths(m, present)
             continue
         equivalents[present.id] = world.equivalent(m)
         for name, value in equivalents[present.id].attributes().items():

@@ -13,7 +13,7 @@ from yade import O
 from yade.nonsmooth import experiment, ground_motion, newmark, records, runs, section, similar, worlds
 from yade.nonsmooth.measure import surface_slip
 from yade.nonsmooth.studies.safety.asked import Asked, SafetyError
-from yade.nonsmooth.studies.slope import results
+from yade.nonsmooth.studies.slope import results, run_files
 
 FRICTION = 0.75  # on a plane of 30°, where tan is 0.577
 SHAKING = {"synthetic": {"peak": 7.0, "duration": 4.0, "frequency": 2.0, "seed": 3, "vertical_peak": 1.0}, "begin": 0.5}
@@ -59,7 +59,7 @@ def test_a_block_slips_as_newmarks(shaken):
 
 def test_each_row_has_the_slip_and_the_acceleration_of_its_time(shaken):
     made, folder, series, _ = shaken
-    t0 = records.read_snapshot(folder / results.BEGIN).time_s
+    t0 = records.read_snapshot(folder / run_files.BEGIN).time_s
     since = series["time_s"] - t0 - made.shaking.begin
     exact = of_newmark(made)
     during = (since > 0) & (since < made.shaking.motion.duration)
@@ -78,7 +78,7 @@ def test_each_row_has_the_slip_and_the_acceleration_of_its_time(shaken):
 def test_the_run_goes_on_until_the_record_is_over(shaken):
     """Though the block stands between two shocks, and before the first, for longer than the time of a rest."""
     made, folder, series, summary = shaken
-    t0 = records.read_snapshot(folder / results.BEGIN).time_s
+    t0 = records.read_snapshot(folder / run_files.BEGIN).time_s
     assert summary["finished"] and series["time_s"][-1] > t0 + made.shaking.end
 
 
@@ -115,7 +115,7 @@ def test_a_record_may_be_a_file(shaken, tmp_path):
 
 def test_stopped_and_resumed_amid_a_shock_it_has_the_same_bits(shaken, tmp_path):
     made, folder, series, _ = shaken
-    t0 = records.read_snapshot(folder / results.BEGIN).time_s
+    t0 = records.read_snapshot(folder / run_files.BEGIN).time_s
     course = run(made, tmp_path / "run", end=t0 + 1.4)
     course.checkpoint()
     O.reset()
@@ -182,7 +182,7 @@ def test_what_moves_while_it_shakes_has_failed_by_shaking(tmp_path):
 
 def test_slip_surfaces_are_found_again_after_a_resume(shaken, tmp_path):
     made, folder, _, _ = shaken
-    begin = records.read_snapshot(folder / results.BEGIN)
+    begin = records.read_snapshot(folder / run_files.BEGIN)
     (found,) = surface_slip.surfaces(made, begin)
     assert found.above.tolist() == [4, 13]  # the others of the lowest row hang on these
 

@@ -13,8 +13,9 @@ sys.path.insert(0, str(Path(__file__).resolve().parents[2]))
 import known_slope  # noqa: E402
 import synthetic_slope as synthetic  # noqa: E402
 
-records, results, similar, toe = (
-    synthetic.load(name) for name in ("records", "studies.slope.results", "model.section.similar", "measure.toe")
+records, results, run_files, similar, toe = (
+    synthetic.load(name)
+    for name in ("records", "studies.slope.results", "studies.slope.run_files", "model.section.similar", "measure.toe")
 )
 SHIPPED, STATE = known_slope.SHIPPED, known_slope.STATE
 SAME = 1e-9  # relative: rounding
@@ -294,7 +295,7 @@ def test_a_resumed_run_forgets_what_it_has_not_reached(tmp_path, stage, gone):
     for name in (*whole, *HALF):
         (tmp_path / name).parent.mkdir(exist_ok=True)
         (tmp_path / name).write_text("")
-    results.forget_later(tmp_path, stage, 100)
+    run_files.forget_later(tmp_path, stage, 100)
     left = {path.relative_to(tmp_path).as_posix() for path in tmp_path.rglob("*") if path.is_file()}
     assert left == set(whole) - {"snapshots/00000150.npz", *gone}
 
@@ -306,7 +307,7 @@ def test_a_run_that_begins_forgets_what_an_earlier_one_has_left(tmp_path):
         "breaks.csv",
         "t0.npz",
         "end.npz",
-        *results.FIGURES,
+        *run_files.FIGURES,
         *LEFT[:3],
         "vtk/disks-00000150.vtu",
         "vtk/avalanche.pvd",
@@ -323,7 +324,7 @@ def test_a_run_that_begins_forgets_what_an_earlier_one_has_left(tmp_path):
     for name in (*old, *kept, *HALF[:3]):
         (tmp_path / name).parent.mkdir(exist_ok=True)
         (tmp_path / name).write_text("")
-    results.forget(tmp_path)
+    run_files.forget(tmp_path)
     left = {path.relative_to(tmp_path).as_posix() for path in tmp_path.rglob("*") if path.is_file()}
     assert left == set(kept)
-    results.forget(tmp_path / "nowhere")  # a folder that is not there has nothing
+    run_files.forget(tmp_path / "nowhere")  # a folder that is not there has nothing

@@ -7,7 +7,7 @@ import pytest
 from slope_scenes import SMALL
 from yade import O
 from yade.nonsmooth import experiment, records, section, section_values
-from yade.nonsmooth.studies.slope import results
+from yade.nonsmooth.studies.slope import run_files
 
 pytestmark = pytest.mark.usefixtures("empty")
 LINE = [[-50.0, 19.0], [0.5, 2.0], [70.0, 2.0]]  # 1 to 2 m above the plane, below the ground
@@ -44,13 +44,13 @@ def together(request, tmp_path_factory):
 def test_each_does_its_part(together):
     made, folder, summary = together
     series = records.read_series(folder / "series.csv")
-    eroded = np.genfromtxt(folder / results.LEDGER, delimiter=",", names=True, dtype=None, encoding="utf-8")
+    eroded = np.genfromtxt(folder / run_files.LEDGER, delimiter=",", names=True, dtype=None, encoding="utf-8")
     assert len(np.atleast_1d(eroded)) > 0  # the window took some
     assert np.abs(series["ground_acceleration_x_m_per_s2"]).max() > 1.0
     assert series["wet_disks"].max() > 0 and series["water_released_rel"][-1] > 0.1
     assert summary["finished"] and summary["times_s"]["t2"] is not None
-    begins = records.read_snapshot(folder / results.BEGIN)
-    assert summary["disks"] == len(begins.x) > len(records.read_snapshot(folder / results.END).x)
+    begins = records.read_snapshot(folder / run_files.BEGIN)
+    assert summary["disks"] == len(begins.x) > len(records.read_snapshot(folder / run_files.END).x)
 
 
 def test_the_energies_balance(together):
@@ -61,7 +61,7 @@ def test_the_energies_balance(together):
 
 def test_stopped_amid_all_of_them_it_goes_on_with_the_same_bits(together, tmp_path):
     made, folder, _ = together
-    t0 = records.read_snapshot(folder / results.BEGIN).time_s
+    t0 = records.read_snapshot(folder / run_files.BEGIN).time_s
     O.reset()
     course = experiment.begin(made, tmp_path / "run")
     course.run(t0 + 1.2, stands=True)
@@ -69,5 +69,5 @@ def test_stopped_amid_all_of_them_it_goes_on_with_the_same_bits(together, tmp_pa
     O.reset()
     again = experiment.resume(section.load(str(tmp_path / "run" / "section.yaml")), tmp_path / "run")
     again.run(stands=True)
-    for name in ("series.csv", "walls.csv", "breaks.csv", results.LEDGER):
+    for name in ("series.csv", "walls.csv", "breaks.csv", run_files.LEDGER):
         assert (tmp_path / "run" / name).read_bytes() == (folder / name).read_bytes(), name

@@ -15,7 +15,7 @@ from .... import figures, records
 from ....model import section
 from ....studies.safety import search
 from ....studies.safety.asked import Asked
-from ....studies.slope import experiment, results
+from ....studies.slope import experiment, run_files
 from ....system.whole_files import empty
 from ....water import field_files, forces, mesh
 from ....water.fields import MeshField, PhreaticLine
@@ -357,7 +357,7 @@ def floating_grains(bench):
     first, last, most = RISE
     course.run(end=None, stands=True)
     series, walls = records.read_series(folder / "series.csv"), records.read_walls(folder / "walls.csv")
-    t0 = records.read_snapshot(folder / results.BEGIN).time_s
+    t0 = records.read_snapshot(folder / run_files.BEGIN).time_s
     mine = walls["wall"] == "floor"
     time, floor = walls["time_s"][mine] - t0, walls["normal_N_per_m"][mine]
     count = course.slope.count
