@@ -145,7 +145,7 @@ def _verdict(place, mutated, number, known, limit, options):
         if status == 1 and (kind == "gtest" or re.search(r"^(FAILED|ERROR) ", said, re.MULTILINE)):
             found = re.search(r"^\[  FAILED  \] (\S+)|^(?:FAILED|ERROR) (.+?)(?: - .*)?$", said, re.MULTILINE)
             return Verdict(CAUGHT, next(filter(None, found.groups()), kind) if found else kind)
-        if status in (4, 5) and kind != "gtest":
+        if status in (4, 5) and kind != "gtest" or re.search(r"^\[=+\] 0 tests ", said, re.MULTILINE):
             return Verdict(BROKEN, f"{kind}: no such test: {said[-300:]}")
         if status:
             return Verdict(CRASHED, f"{kind} ends with {status}: {' '.join(said.split())[-160:]}")

@@ -8,6 +8,7 @@ from textwrap import dedent
 
 import changes
 import cpp_changes
+import judge
 import near_tests
 import pytest
 import python_changes
@@ -423,3 +424,14 @@ def test_scripts_faces_and_helpers_are_ways_to_a_module(checkout):
 def test_cpp_is_judged_by_the_table_and_by_who_says_its_names(checkout):
     assert set(checkout.of("pkg/dem/Wall.cpp")) == {"test_named.py", "test_wall.py", "test_walls_more.py"}
     assert checkout.of("pkg/contact/law.cpp") == ["gtest:*"]
+
+
+@pytest.mark.parametrize(
+    "ran, outcome", [("0 tests from 0 test suites", "BROKEN"), ("10 tests from 2 test suites", "SURVIVED")]
+)
+def test_a_filter_of_googletest_that_selects_nothing_is_no_judge(monkeypatch, ran, outcome):
+    """A suite of parameters is called Instance/Suite, so that the filter "Suite.*" has none of it."""
+    said = f"[==========] {ran} ran. (0 ms total)\n[  PASSED  ] 0 tests."
+    monkeypatch.setattr(judge, "run", lambda *_: [("gtest", 0, said)])
+    one = mutant("m", "pkg/contact/core/a.cpp", "x", "y", "", "gtest:Suite.*")
+    assert judge._verdict(None, one, 1, {}, 300, ()).outcome == outcome

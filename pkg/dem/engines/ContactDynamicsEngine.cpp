@@ -15,7 +15,8 @@ namespace yade {
 
 YADE_PLUGIN((ContactDynamicsEngine));
 CREATE_LOGGER(ContactDynamicsEngine);
-[[maybe_unused]] static const bool contactDynamicsEngineRole = nscd::giveRole(typeid(ContactDynamicsEngine), nscd::EngineRole::TakesTurns);
+[[maybe_unused]] static const bool contactDynamicsEngineRole = nscd::giveRole(
+        typeid(ContactDynamicsEngine), nscd::EngineRole::TakesTurns);
 
 namespace contact = nonsmooth::contact;
 

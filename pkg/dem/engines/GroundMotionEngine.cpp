@@ -8,7 +8,8 @@
 namespace yade {
 
 YADE_PLUGIN((GroundMotionEngine));
-[[maybe_unused]] static const bool groundMotionEngineRole = nscd::giveRole(typeid(GroundMotionEngine), nscd::EngineRole::TakesTurns);
+[[maybe_unused]] static const bool groundMotionEngineRole = nscd::giveRole(
+        typeid(GroundMotionEngine), nscd::EngineRole::TakesTurns);
 
 namespace {
 	[[noreturn]] void refuseMotion(const string& why) { throw std::invalid_argument("GroundMotionEngine: " + why); }

@@ -8,7 +8,8 @@
 namespace yade {
 
 YADE_PLUGIN((NonsmoothTimeStepper));
-[[maybe_unused]] static const bool nonsmoothTimeStepperRole = nscd::giveRole(typeid(NonsmoothTimeStepper), nscd::EngineRole::Blind);
+[[maybe_unused]] static const bool nonsmoothTimeStepperRole = nscd::giveRole(
+        typeid(NonsmoothTimeStepper), nscd::EngineRole::Blind);
 
 void NonsmoothTimeStepper::validate() const
 {

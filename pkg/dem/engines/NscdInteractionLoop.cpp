@@ -23,7 +23,8 @@
 namespace yade {
 
 YADE_PLUGIN((NscdInteractionLoop));
-[[maybe_unused]] static const bool nscdInteractionLoopRole = nscd::giveRole(typeid(NscdInteractionLoop), nscd::EngineRole::TakesTurns);
+[[maybe_unused]] static const bool nscdInteractionLoopRole = nscd::giveRole(
+        typeid(NscdInteractionLoop), nscd::EngineRole::TakesTurns);
 
 namespace {
 	using nscd::fetch, nscd::soon, nscd::later, nscd::Reading;

@@ -16,7 +16,8 @@
 namespace yade {
 
 YADE_PLUGIN((PlanarGridCollider));
-[[maybe_unused]] static const bool planarGridColliderRole = nscd::giveRole(typeid(PlanarGridCollider), nscd::EngineRole::TakesTurns);
+[[maybe_unused]] static const bool planarGridColliderRole = nscd::giveRole(
+        typeid(PlanarGridCollider), nscd::EngineRole::TakesTurns);
 
 namespace {
 	using nonsmooth::neighbours::Disk;

@@ -8,7 +8,8 @@
 namespace yade {
 
 YADE_PLUGIN((PlanarNewtonIntegrator));
-[[maybe_unused]] static const bool planarNewtonIntegratorRole = nscd::giveRole(typeid(PlanarNewtonIntegrator), nscd::EngineRole::TakesTurns);
+[[maybe_unused]] static const bool planarNewtonIntegratorRole = nscd::giveRole(
+        typeid(PlanarNewtonIntegrator), nscd::EngineRole::TakesTurns);
 
 namespace {
 	namespace plane = nonsmooth::contact::plane;

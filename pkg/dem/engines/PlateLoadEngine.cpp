@@ -14,7 +14,8 @@
 namespace yade {
 
 YADE_PLUGIN((PlateLoadEngine));
-[[maybe_unused]] static const bool plateLoadEngineRole = nscd::giveRole(typeid(PlateLoadEngine), nscd::EngineRole::TakesTurns);
+[[maybe_unused]] static const bool plateLoadEngineRole = nscd::giveRole(
+        typeid(PlateLoadEngine), nscd::EngineRole::TakesTurns);
 
 namespace {
 	[[noreturn]] void refusePlate(const string& why) { throw std::runtime_error("PlateLoadEngine: " + why); }

@@ -14,7 +14,8 @@ namespace yade {
 
 YADE_PLUGIN((PorePressureEngine));
 CREATE_LOGGER(PorePressureEngine);
-[[maybe_unused]] static const bool porePressureEngineRole = nscd::giveRole(typeid(PorePressureEngine), nscd::EngineRole::TakesTurns);
+[[maybe_unused]] static const bool porePressureEngineRole = nscd::giveRole(
+        typeid(PorePressureEngine), nscd::EngineRole::TakesTurns);
 
 void PorePressureEngine::validate() const
 {

@@ -6,7 +6,8 @@
 namespace yade {
 
 YADE_PLUGIN((WallForceEngine));
-[[maybe_unused]] static const bool wallForceEngineRole = nscd::giveRole(typeid(WallForceEngine), nscd::EngineRole::Blind);
+[[maybe_unused]] static const bool wallForceEngineRole = nscd::giveRole(
+        typeid(WallForceEngine), nscd::EngineRole::Blind);
 
 void WallForceEngine::action()
 {

@@ -25,9 +25,9 @@ namespace {
 	/// Runs Python, or writes files. But for what says itself when it acts its isActivated is PeriodicEngine's, or Recorder's, which asks that one.
 	bool isRunnerOrRecorder(const Engine& engine)
 	{
-		return isOneOf<PyRunner>(engine) || roleOf(engine) == EngineRole::Runner || dynamic_cast<const Recorder*>(&engine)
-		        || engine.getClassName() == "VTKRecorder" || engine.getClassName() == "SnapshotEngine"
-		        || engine.getClassName() == "DomainLimiter";
+		return isOneOf<PyRunner>(engine) || roleOf(engine) == EngineRole::Runner
+		        || dynamic_cast<const Recorder*>(&engine) || engine.getClassName() == "VTKRecorder"
+		        || engine.getClassName() == "SnapshotEngine" || engine.getClassName() == "DomainLimiter";
 	}
 
 	/// An engine's place in the list; the end where it has none, outside a step since somebody called it by hand, and in sub-steps since somebody looks after each.
@@ -92,8 +92,7 @@ bool isTooLate(const Scene& scene, const Engine& engine)
 		if (before.dead) continue;
 		if (takesTurns(before)) return false;
 		// of others it cannot be told afterwards whether they have acted
-		if (!isBlind(before) && !dynamic_cast<const PeriodicEngine*>(&before) && !actsOf(before))
-			return true;
+		if (!isBlind(before) && !dynamic_cast<const PeriodicEngine*>(&before) && !actsOf(before)) return true;
 	}
 	return false;
 }
