@@ -17,7 +17,7 @@ int {SYMBOL} = [] {{ const char* number = std::getenv("NONSMOOTH_MUTANT"); retur
 }}
 """
 # a module of Python links one of them alone; what links both takes the switch of the first
-LIBRARIES = ("pkg/contact", "pkg/contact/slip")
+LIBRARIES = ("pkg/contact/core", "pkg/contact/slip")
 
 
 class TableError(ValueError):
