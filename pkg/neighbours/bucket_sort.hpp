@@ -6,8 +6,8 @@
 
 namespace nonsmooth::neighbours {
 
-/// `each(take)` calls take(bucket, item) for all items, and is called twice; then those of bucket b lie from sorted[begin[b]] to sorted[begin[b + 1]], in
-/// the order given.
+/// `each(take)` calls take(bucket, item) for all items, and is called twice; then those of bucket b lie from
+/// sorted[begin[b]] to sorted[begin[b + 1]], in the order given.
 template <class Item, class Each>
 void sortIntoBuckets(std::size_t buckets, Each each, std::vector<int>& begin, std::vector<Item>& sorted)
 {

@@ -13,7 +13,8 @@ struct Cell {
 	bool         operator==(const Cell& o) const { return x == o.x && y == o.y; }
 };
 
-/// The cell in which a point lies where cells are `width` wide [m]. Those farther than 2²⁹ cells from the origin share the last ones.
+/// The cell in which a point lies where cells are `width` wide [m]. Those farther than 2²⁹ cells from the origin share
+/// the last ones.
 inline Cell cellAt(double x, double y, double width)
 {
 	static constexpr double farthest = 1 << 29;

@@ -1,8 +1,10 @@
-// Which disks are near each other, and which are near a box: a grid for disks of any sizes, in time and memory that grow with their number.
+// Which disks are near each other, and which are near a box: a grid for disks of any sizes, in time and memory that
+// grow with their number.
 //
-// Disks are sorted into levels by size, each a factor of two, and each level has a grid of its own, whose cells are as wide as its largest disks. A pair is
-// looked for in the grid of the larger of the two, in the cells that the smaller reaches. Cells are kept by a hash, so the plane has no
-// bounds, and one disk that has fallen far costs nothing. What is found does not depend on the number of threads.
+// Disks are sorted into levels by size, each a factor of two, and each level has a grid of its own, whose cells are as
+// wide as its largest disks. A pair is looked for in the grid of the larger of the two, in the cells that the smaller
+// reaches. Cells are kept by a hash, so the plane has no bounds, and one disk that has fallen far costs nothing. What
+// is found does not depend on the number of threads.
 #pragma once
 
 #include <cmath>
@@ -41,9 +43,11 @@ class DiskGrid {
 public:
 	/// Sorts the disks in; their index is their place in the list.
 	void build(const std::vector<Disk>& disks, double factor);
-	/// All pairs of disks whose distance is below `factor` times the sum of their radii, plus the smaller of their margins.
+	/// All pairs of disks whose distance is below `factor` times the sum of their radii, plus the smaller of their
+	/// margins.
 	void pairs(int threads, Pairs& found);
-	/// Indices, ascending, of the disks whose centres are in the box, extended by `factor` times their radius plus `margin` [m] on all sides.
+	/// Indices, ascending, of the disks whose centres are in the box, extended by `factor` times their radius plus
+	/// `margin` [m] on all sides.
 	void near(const Box& box, double factor, double margin, std::vector<int>& found) const;
 
 private:

@@ -1,7 +1,9 @@
-// Squares of the plane with the disks in them: by how much velocities, or paths, of disks that are near each other can differ.
+// Squares of the plane with the disks in them: by how much velocities, or paths, of disks that are near each other can
+// differ.
 //
-// Disks of an avalanche slide side by side: none is slow, but few are fast against those around them. What a square and the eight around it have in common
-// says for all pairs of disks that are no farther apart than a square is wide how fast they can approach.
+// Disks of an avalanche slide side by side: none is slow, but few are fast against those around them. What a square and
+// the eight around it have in common says for all pairs of disks that are no farther apart than a square is wide how
+// fast they can approach.
 #pragma once
 
 #include <array>
@@ -21,7 +23,8 @@ public:
 	int  count() const { return (int)around.size(); }
 	/// The square of a disk; negative where the disk is not there.
 	int of(int disk) const { return square[disk]; }
-	/// By square, the largest difference of two vectors of disks in it and in the eight around it, or a little more; `vectors` by disk.
+	/// By square, the largest difference of two vectors of disks in it and in the eight around it, or a little
+	/// more; `vectors` by disk.
 	void differences(int threads, const std::vector<Vector>& vectors, std::vector<double>& found);
 	/// By square, the largest of the values of it and of the eight around it.
 	void largestAround(const std::vector<double>& values, std::vector<double>& found) const;

@@ -330,7 +330,8 @@ def test_a_copy_is_built_again_where_it_changed_also_back(tmp_path, monkeypatch)
     built with them.
     """
     checkout, copy = tmp_path / "checkout" / "pkg" / "contact", tmp_path / "copy"
-    (checkout / "slip").mkdir(parents=True)
+    for folder in ("core", "slip"):
+        (checkout / folder).mkdir(parents=True)
     for name in ("a.cpp", "b.cpp"):
         (checkout / name).write_text("int f() { return x + y; }\n")
         os.utime(checkout / name, (1e9, 1e9))

@@ -1,4 +1,5 @@
-// How the solver refuses numbers and sizes that it cannot compute with, before it starts; for problems of any dimension.
+// How the solver refuses numbers and sizes that it cannot compute with, before it starts; for problems of any
+// dimension.
 #pragma once
 
 #include <cstddef>
@@ -42,7 +43,8 @@ template <class Problem> void checkSizes(const Problem& problem)
 	checkSize("impulses", problem.impulses.size(), problem.contactCount(), "contacts");
 }
 
-/// Throws std::invalid_argument naming the first of `bodies` that the contact `it` names and that is not there, or the one that it names twice.
+/// Throws std::invalid_argument naming the first of `bodies` that the contact `it` names and that is not there, or the
+/// one that it names twice.
 void refuseBodies(const std::string& it, std::int32_t i, std::int32_t j, std::int32_t bodies);
 
 } // namespace nonsmooth::contact

@@ -1,7 +1,8 @@
-// A contact problem laid out for sweeping: in strips (and what they leave over, as one more part), and inside a part in blocks of eight contacts (core/lanes.hpp), followed by the few that
-// do not fit into blocks.
+// A contact problem laid out for sweeping: in strips (and what they leave over, as one more part), and inside a part in
+// blocks of eight contacts (core/lanes.hpp), followed by the few that do not fit into blocks.
 //
-// Which contacts lie where rests on who touches whom, on strips, and on which contacts fit into blocks. While these stay, so does it, and a solve only fills in new numbers.
+// Which contacts lie where rests on who touches whom, on strips, and on which contacts fit into blocks. While these
+// stay, so does it, and a solve only fills in new numbers.
 #pragma once
 
 #include <contact/core/kernel_table.hpp>
@@ -42,7 +43,8 @@ template <class Dimension> struct ContactBlocksIn {
 			return inSingle;
 	}
 
-	/// What one part consists of, before its place in the whole is known. On cache lines of its own: threads fill one beside the other.
+	/// What one part consists of, before its place in the whole is known. On cache lines of its own: threads fill
+	/// one beside the other.
 	struct alignas(64) Part {
 		std::vector<std::int32_t> contactOf, others;
 	};
@@ -51,15 +53,17 @@ template <class Dimension> struct ContactBlocksIn {
 	bool              kept     = false; // whether it kept what stood there
 };
 
-/// Looks at the problem (core/survey.hpp, whose refusals it throws) and lays out which contacts lie where in `result`, whose memory is used again. Numbers are
-/// left to fillIn(). Blocks name bodies by their places; an empty lane names the place problem.bodyCount(), which the caller provides and which cannot move.
-/// Without `blocks` all contacts are among the others, in the order of the sweep.
+/// Looks at the problem (core/survey.hpp, whose refusals it throws) and lays out which contacts lie where in `result`,
+/// whose memory is used again. Numbers are left to fillIn(). Blocks name bodies by their places; an empty lane names
+/// the place problem.bodyCount(), which the caller provides and which cannot move. Without `blocks` all contacts are
+/// among the others, in the order of the sweep.
 template <class Dimension>
 void layOut(
         const typename Dimension::Problem& problem, int threads, ContactBlocksIn<Dimension>& result,
         bool blocks = true);
 
-/// Fills the numbers of the contacts into the blocks of one part; impulses come from problem.impulses, projected on their thresholds.
+/// Fills the numbers of the contacts into the blocks of one part; impulses come from problem.impulses, projected on
+/// their thresholds.
 template <class Dimension>
 void fillIn(
         const typename Dimension::Problem& problem, const BlockKernelsIn<Dimension>& kernels, std::size_t part,

@@ -75,8 +75,8 @@ private:
 	int    looks = 0, patience = 1, mostPatience; // looks since and between comparisons
 };
 
-/// Whether the extrapolation gets nowhere and plain sweeps should go on, asked at every look at the residual: with much friction and many gaps of the size of a
-/// step it can run in circles.
+/// Whether the extrapolation gets nowhere and plain sweeps should go on, asked at every look at the residual: with much
+/// friction and many gaps of the size of a step it can run in circles.
 class StagnationRule {
 public:
 	explicit StagnationRule(double residual)

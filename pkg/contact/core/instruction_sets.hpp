@@ -5,7 +5,8 @@ namespace nonsmooth::contact {
 
 enum class InstructionSet { Avx2, Avx512 };
 
-/// Whether the loops compiled for that set can run here; without them in the build, or on another kind of processor, no.
+/// Whether the loops compiled for that set can run here; without them in the build, or on another kind of processor,
+/// no.
 bool runs(InstructionSet set);
 
 } // namespace nonsmooth::contact

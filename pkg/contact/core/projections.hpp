@@ -8,8 +8,8 @@ namespace nonsmooth::contact {
 /// Nearest admissible normal impulse, eqs (1) and (2).
 inline double projectNormal(double n, double adhesion) { return std::max(n, -adhesion); }
 
-/// The normal impulse that obeys the graph, of one without regard to it, n = P − (U + b)/W, and 1/W: nearest admissible one, and of a bond with play
-/// the proximal point of ψ/W.
+/// The normal impulse that obeys the graph, of one without regard to it, n = P − (U + b)/W, and 1/W: nearest admissible
+/// one, and of a bond with play the proximal point of ψ/W.
 inline double obeyNormal(double n, double inverse, double adhesion, double play)
 {
 	if (!(play > 0)) return projectNormal(n, adhesion);

@@ -9,8 +9,10 @@
 //   ϑ = V / √(V² + s²)                   share of the contact's speed that its impulses leave open: 0 solved, 1 where nothing acts yet and something should
 //   ϑ_p                                  the same with the normal and tangential rows of V alone: what the contact's point leaves open
 //
-// ϑ does not depend on units, or on how fast everything moves together. The square of the rms of all bodies' |Δv| is added to s² (SpeedScale): in a packing that is pressed without
-// being accelerated nobody's own change is known to a share of itself. So is what rounding leaves of W P and of b, so that one which changes no velocity at all can be solved.
+// ϑ does not depend on units, or on how fast everything moves together. The square of the rms of all bodies' |Δv| is
+// added to s² (SpeedScale): in a packing that is pressed without being accelerated nobody's own change is known to a
+// share of itself. So is what rounding leaves of W P and of b, so that one which changes no velocity at all can be
+// solved.
 #pragma once
 
 #include <algorithm>
@@ -32,15 +34,17 @@ struct Residual {
 		if (!std::isfinite(rms + scale)) return HUGE_VAL; // whatever is not a number is not a solution
 		return scale > 0 ? rms / scale : (rms > 0 ? 1 : 0);
 	}
-	/// The largest of the three figures, each over what the tolerance allows it: solved up to 1. `uneven`: masses are so far apart that impulses do not show
-	/// what a light body misses; then speeds decide, and else they see to it that no body falls.
+	/// The largest of the three figures, each over what the tolerance allows it: solved up to 1. `uneven`: masses
+	/// are so far apart that impulses do not show what a light body misses; then speeds decide, and else they see
+	/// to it that no body falls.
 	double missed(double tolerance, bool uneven) const
 	{
 		if (!std::isfinite(relative() + speed)) return HUGE_VAL;
 		return std::max({ relative() / tolerance, speed / meanSpeed(tolerance, uneven),
 		                  largestSpeed / mostSpeed(tolerance, uneven) });
 	}
-	/// What a tolerance allows the rms of ϑ and the largest ϑ_p. That of a body at rest which falls beside others that do not is 0.7.
+	/// What a tolerance allows the rms of ϑ and the largest ϑ_p. That of a body at rest which falls beside others
+	/// that do not is 0.7.
 	static double meanSpeed(double tolerance, bool uneven)
 	{
 		return uneven ? std::clamp(100 * tolerance, 1e-4, 0.1) : 0.1;

@@ -1,7 +1,7 @@
 // Problems whose impulses or speeds are so small that their squares are 0 in doubles: solved in other units.
 //
-// The law is homogeneous: with free velocities and biases times a, masses times m, and adhesion times a m, impulses are times a m and velocities times a. Powers of two
-// change no digit.
+// The law is homogeneous: with free velocities and biases times a, masses times m, and adhesion times a m, impulses are
+// times a m and velocities times a. Powers of two change no digit.
 #pragma once
 
 #include <contact/core/survey.hpp>
@@ -16,7 +16,8 @@ struct Scaling {
 
 inline Scaling inverse(const Scaling& s) { return { -s.speed, -s.mass }; }
 
-/// Units in which the largest free velocity and mass are near one, if their squares are lost in the present ones; none where nothing moves.
+/// Units in which the largest free velocity and mass are near one, if their squares are lost in the present ones; none
+/// where nothing moves.
 std::optional<Scaling> scalingOfLostSquares(const Survey& survey);
 
 /// What a strength becomes that is out of all proportion to the impulses; times a friction it is still a number.

@@ -1,7 +1,9 @@
 // When to stop sweeping: by our own residual (core/residual.hpp), or by the tests that LMGC90's users know by name.
 //
-// LMGC90's non-linear Gauss-Seidel asks between sweeps what one more visit would make of each contact, all others keeping their
-// impulses: P' for P. No impulse is changed by asking. With W the contact's own block of the Delassus operator, for each contact
+// LMGC90's non-linear Gauss-Seidel asks between sweeps what one more visit would make of each contact, all others
+// keeping their
+// impulses: P' for P. No impulse is changed by asking. With W the contact's own block of the Delassus operator, for
+// each contact
 //     D = W (P − P')   change of relative velocity,     R = (P + P')/2
 //     e = (P·W P + P'·W P')/2 ,     s = (|W P|² + |W P'|²)/2
 // and with ⟨ ⟩ the mean over the active contacts, those where R ≠ 0, its five figures are
@@ -12,15 +14,17 @@
 //     Quad    velocity, work, |drift|                         bad contacts are made up for by good ones
 //     Maxm    largestVelocity, largestWork, |drift|           the worst contact decides
 //     QM/16   those of Quad, and those of Maxm below 16.666 tolerances
-// Source: the program itself, module nlgs (solve_nlgs while checking, compute_convergence_norms_nlgs, check_convergence_nlgs) as published
-// on GitHub, and the key words' description in its command NLGS CHECK TYPE.
+// Source: the program itself, module nlgs (solve_nlgs while checking, compute_convergence_norms_nlgs,
+// check_convergence_nlgs) as published on GitHub, and the key words' description in its command NLGS CHECK TYPE.
 //
-// Deviations. LMGC90 has no rolling row here: ours counts with velocities times ℓ and impulses over ℓ. W is taken row by row (its
-// diagonal), which for disks leaves out only the coupling of sliding and rolling; P' is what our sweep's visit makes, normal row first. The first question
-// is asked before the first sweep, so that a warm start may need none, then every checkEvery sweeps; LMGC90 makes a block of sweeps first.
+// Deviations. LMGC90 has no rolling row here: ours counts with velocities times ℓ and impulses over ℓ. W is taken row
+// by row (its diagonal), which for disks leaves out only the coupling of sliding and rolling; P' is what our sweep's
+// visit makes, normal row first. The first question is asked before the first sweep, so that a warm start may need
+// none, then every checkEvery sweeps; LMGC90 makes a block of sweeps first.
 //
-// Since P' comes from the same projection, these figures are relatives of the natural map: they differ in weighting with W (a
-// velocity instead of an impulse), in counting active contacts only, and in the threshold, which follows P'_n instead of P_n.
+// Since P' comes from the same projection, these figures are relatives of the natural map: they differ in weighting
+// with W (a velocity instead of an impulse), in counting active contacts only, and in the threshold, which follows P'_n
+// instead of P_n.
 #pragma once
 
 namespace nonsmooth::contact {
@@ -33,7 +37,8 @@ StoppingTest stoppingTestOf(const char* name);
 /// The five figures [-]; all 0 where no contact is active.
 struct VelocityChanges {
 	double velocity = 0, largestVelocity = 0, work = 0, largestWork = 0, drift = 0;
-	/// What the test compares with the tolerance: the largest of its figures. Not for NaturalMap, which has its own residual.
+	/// What the test compares with the tolerance: the largest of its figures. Not for NaturalMap, which has its own
+	/// residual.
 	double figure(StoppingTest test) const;
 };
 

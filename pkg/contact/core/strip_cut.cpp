@@ -23,7 +23,8 @@ namespace {
 		Span   operator()(const Span& s) const { return sign > 0 ? s : Span { -s.high, -s.low }; }
 	};
 
-	/// Along an axis in the direction in which the numbers of bodies rise, so that a mirrored scene has the mirrored strips; in the plane upwards along y.
+	/// Along an axis in the direction in which the numbers of bodies rise, so that a mirrored scene has the
+	/// mirrored strips; in the plane upwards along y.
 	Way along(const Coordinates& places, const Survey& survey, int axis)
 	{
 		if (axis > 0 && places.axes == 2) return { axis };
@@ -49,7 +50,8 @@ namespace {
 		return { std::max(extent.low, low - beyond), std::min(extent.high, high + beyond) };
 	}
 
-	/// Lower ends of some contacts. Places of the samples follow the golden section, so that no regular order of contacts falls in with them.
+	/// Lower ends of some contacts. Places of the samples follow the golden section, so that no regular order of
+	/// contacts falls in with them.
 	void
 	sample(const Coordinates& places, const std::vector<MovablePair>& pairs, const Way (&ways)[3],
 	       std::vector<double> (&samples)[3])
@@ -170,7 +172,8 @@ namespace {
 		}
 	}
 
-	/// Puts bodies into bins and bins into strips. Returns whether strips stayed as they were, as far as that is known without counting.
+	/// Puts bodies into bins and bins into strips. Returns whether strips stayed as they were, as far as that is
+	/// known without counting.
 	bool divide(const Coordinates& places, const Survey& survey, int threads, StripCut& result)
 	{
 		auto&       scratch    = result.scratch;

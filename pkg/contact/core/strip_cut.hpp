@@ -1,8 +1,9 @@
 // Where a packing is cut into strips: across its longest side, with about as many contacts in each.
 //
-// A contact may reach into the next strip but no further, so a strip is at least as wide as a contact is long. One body with long contacts (a wide platen
-// whose centre is far from the disks below it) would make strips so wide that few are left. Where that happens and few contacts are that long, strips are
-// as wide as the others ask, and those that reach too far are left over. Nor does a body far from all others widen strips: ends take in whatever lies beyond.
+// A contact may reach into the next strip but no further, so a strip is at least as wide as a contact is long. One body
+// with long contacts (a wide platen whose centre is far from the disks below it) would make strips so wide that few are
+// left. Where that happens and few contacts are that long, strips are as wide as the others ask, and those that reach
+// too far are left over. Nor does a body far from all others widen strips: ends take in whatever lies beyond.
 #pragma once
 
 #include <contact/core/survey.hpp>
@@ -26,8 +27,9 @@ struct StripCut {
 	} scratch;
 };
 
-/// One strip where places are missing or contacts few. The result depends neither on `threads` nor on what `result` held. Returns whether strips stayed
-/// as they were, which is asked where pairs did: bodies that stay in their bins need no counting.
+/// One strip where places are missing or contacts few. The result depends neither on `threads` nor on what `result`
+/// held. Returns whether strips stayed as they were, which is asked where pairs did: bodies that stay in their bins
+/// need no counting.
 bool cutIntoStrips(const Coordinates& places, const Survey& survey, int threads, StripCut& result);
 
 } // namespace nonsmooth::contact

@@ -4,8 +4,8 @@
 namespace nonsmooth::contact {
 
 namespace {
-	// Passes at once: no more than whose strips share a cache with those of other workers (ten sweeps and a look at the residual), and a triangle is kept small
-	// beside a stretch.
+	// Passes at once: no more than whose strips share a cache with those of other workers (ten sweeps and a look at
+	// the residual), and a triangle is kept small beside a stretch.
 	constexpr std::size_t deepest = 11, pairsADepth = 8;
 }
 

@@ -1,20 +1,24 @@
 // Which thread visits which strips of a sweep, in what order, and when it has to wait for another.
 //
-// All even strips come before all odd ones (sweep_order.hpp), but a strip meets its two neighbours only. So a worker takes a stretch of
-// strips that lie side by side, visits an odd strip as soon as both its neighbours have been visited, while their bodies are still in the
-// cache, and waits where its stretch ends alone. The bits are those of one thread that visits all even strips and then all odd ones.
+// All even strips come before all odd ones (sweep_order.hpp), but a strip meets its two neighbours only. So a worker
+// takes a stretch of strips that lie side by side, visits an odd strip as soon as both its neighbours have been
+// visited, while their bodies are still in the cache, and waits where its stretch ends alone. The bits are those of one
+// thread that visits all even strips and then all odd ones.
 //
-// A stretch is a run of pairs (2p, 2p+1), with about as many contacts in each. Its last odd strip reaches into the first even strip of the next
-// stretch, which gives two rules: that odd strip is visited after the neighbour's first even one of the same pass, and an even first strip
-// after the last odd strip that the worker before visited in the pass before. A worker visits its first strip at the beginning of a pass and its
-// last one in the middle, so each may be half a pass ahead of the other before it waits.
+// A stretch is a run of pairs (2p, 2p+1), with about as many contacts in each. Its last odd strip reaches into the
+// first even strip of the next stretch, which gives two rules: that odd strip is visited after the neighbour's first
+// even one of the same pass, and an even first strip after the last odd strip that the worker before visited in the
+// pass before. A worker visits its first strip at the beginning of a pass and its last one in the middle, so each may
+// be half a pass ahead of the other before it waits.
 //
-// What strips leave over (sweep_order.hpp) is the first worker's, after all strips of a pass and before those of the next: everybody waits.
+// What strips leave over (sweep_order.hpp) is the first worker's, after all strips of a pass and before those of the
+// next: everybody waits.
 //
-// Several passes at once: a strip's next visit has to wait for the strips beside it alone. Where a stretch is long, a worker therefore makes a few
-// passes together, each two strips behind the one before (a wavefront), so that what the first fetches from memory is in the cache for all of them.
-// Strips near the end of a stretch cannot be visited that way without the neighbour's next passes, so every pass stops a pair of strips short of the one
-// before it, at both ends. That leaves a triangle across each end, which the worker before it visits last:
+// Several passes at once: a strip's next visit has to wait for the strips beside it alone. Where a stretch is long, a
+// worker therefore makes a few passes together, each two strips behind the one before (a wavefront), so that what the
+// first fetches from memory is in the cache for all of them. Strips near the end of a stretch cannot be visited that
+// way without the neighbour's next passes, so every pass stops a pair of strips short of the one before it, at both
+// ends. That leaves a triangle across each end, which the worker before it visits last:
 //
 //     pass 3          o o o o o o - - - - - - o o o o       o: wavefronts of the two workers
 //     pass 2      o o o o o o o o - - - - o o o o o o       -: the triangle between them
@@ -33,22 +37,23 @@ namespace nonsmooth::contact {
 
 class StripSchedule {
 public:
-	/// Cuts strips into stretches for at most `workers`. `begin`: as SweepOrder::partBegin, even strips first, then odd ones, then what is left over;
-	/// `evenStrips`: how many are even. To be called by one thread.
+	/// Cuts strips into stretches for at most `workers`. `begin`: as SweepOrder::partBegin, even strips first, then
+	/// odd ones, then what is left over; `evenStrips`: how many are even. To be called by one thread.
 	void plan(const std::vector<std::size_t>& begin, std::size_t evenStrips, int workers);
 
-	/// One pass over all parts: calls visit(part) for those of a worker. Every worker below workerCount() must make as many passes as the others;
-	/// other threads do nothing. It does not wait for the others at its end.
+	/// One pass over all parts: calls visit(part) for those of a worker. Every worker below workerCount() must make
+	/// as many passes as the others; other threads do nothing. It does not wait for the others at its end.
 	template <class Visit> void pass(int worker, Visit visit);
 
-	/// One of `parts` equal parts of a strip that the first of several passes visits soon, and that is likely not in the cache yet: the visits
-	/// before it may each fetch one. None where `parts` is 0.
+	/// One of `parts` equal parts of a strip that the first of several passes visits soon, and that is likely not
+	/// in the cache yet: the visits before it may each fetch one. None where `parts` is 0.
 	struct Ahead {
 		std::size_t strip = 0;
 		int         part = 0, parts = 0;
 	};
 
-	/// As many passes: calls visit(part, pass, ahead) with passes counted from 0, several at once where stretches are long enough.
+	/// As many passes: calls visit(part, pass, ahead) with passes counted from 0, several at once where stretches
+	/// are long enough.
 	template <class Visit> void passes(int worker, int count, Visit visit);
 
 	/// Calls visit(part) for the same parts, in any order with those of others.
@@ -64,8 +69,8 @@ private:
 		std::size_t joint; // how many of them come before the one that reaches into the next stretch
 		bool        reaches; // whether there is such a one
 	};
-	/// Passes in which a worker has visited its first strip, the one that reaches into the next stretch, and all, of the first worker with what is
-	/// left over; on a cache line of their own.
+	/// Passes in which a worker has visited its first strip, the one that reaches into the next stretch, and all,
+	/// of the first worker with what is left over; on a cache line of their own.
 	struct alignas(64) Progress {
 		std::atomic<long> begun { 0 }, joined { 0 }, ended { 0 };
 		long              passes = 0; // of the worker itself

@@ -1,5 +1,6 @@
-// One look at every body and contact before a solve: whether the solver can use it, and what strips, order and blocks rest on. Where a workspace is used again,
-// it also tells what of that has changed since the last look, so that the rest can be kept.
+// One look at every body and contact before a solve: whether the solver can use it, and what strips, order and blocks
+// rest on. Where a workspace is used again, it also tells what of that has changed since the last look, so that the
+// rest can be kept.
 #pragma once
 
 #include <cmath>

@@ -27,7 +27,8 @@ namespace {
 			result.bodies[next[strips[b] >= 0 ? strips[b] : cut.count]++] = static_cast<std::int32_t>(b);
 	}
 
-	/// Sorts contacts by their parts; stable, so the contacts' own order decides the rest. Threads take shares of them that do not depend on what they find.
+	/// Sorts contacts by their parts; stable, so the contacts' own order decides the rest. Threads take shares of
+	/// them that do not depend on what they find.
 	void sortIntoParts(const Survey& survey, int threads, SweepOrder& result)
 	{
 		auto&              scratch = result.scratch;

@@ -1,10 +1,11 @@
 // The order in which a Gauss-Seidel sweep visits contacts: independent of the number of threads and kind to caches.
 //
-// Bodies are cut into strips across the longer side of the packing (strip_cut.hpp), and a contact belongs to the first strip it touches, if it
-// reaches into the next strip at most. So all even strips can be swept at once, then all odd ones, and any number of threads gives the same bits.
-// Contacts that reach further, few or none, are left over: they come last, one thread's work. Inside a strip contacts are sorted by colour
-// (neighbours in the order share no body), which lets a processor work on several at a time. Bodies are ordered by strips too, so that a strip
-// finds its own side by side.
+// Bodies are cut into strips across the longer side of the packing (strip_cut.hpp), and a contact belongs to the first
+// strip it touches, if it reaches into the next strip at most. So all even strips can be swept at once, then all odd
+// ones, and any number of threads gives the same bits. Contacts that reach further, few or none, are left over: they
+// come last, one thread's work. Inside a strip contacts are sorted by colour (neighbours in the order share no body),
+// which lets a processor work on several at a time. Bodies are ordered by strips too, so that a strip finds its own
+// side by side.
 #pragma once
 
 #include <contact/core/strip_cut.hpp>
@@ -34,13 +35,14 @@ struct SweepOrder {
 	} scratch;
 };
 
-/// Greedy: each contact, in the order given, takes the lowest colour that neither of its movable bodies has; 63 is shared by the rest.
-/// `used` is left with the colours at each body.
+/// Greedy: each contact, in the order given, takes the lowest colour that neither of its movable bodies has; 63 is
+/// shared by the rest. `used` is left with the colours at each body.
 void colour(
         const std::vector<MovablePair>& pairs, std::size_t bodyCount, std::vector<std::uint8_t>& colours,
         std::vector<std::uint64_t>& used);
 
-/// Without places all contacts make one strip. The result depends neither on `threads` nor on what `result` held. Returns whether it is what it held
+/// Without places all contacts make one strip. The result depends neither on `threads` nor on what `result` held.
+/// Returns whether it is what it held
 /// already: `survey` says which pairs are kept, and where strips are too, so is the order.
 bool arrange(const Coordinates& places, const Survey& survey, int threads, SweepOrder& result);
 

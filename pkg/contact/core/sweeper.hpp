@@ -1,7 +1,8 @@
-// Sweeps over one contact problem that is laid out in blocks, in doubles or in floats: what solving it and correcting positions have in common.
+// Sweeps over one contact problem that is laid out in blocks, in doubles or in floats: what solving it and correcting
+// positions have in common.
 //
-// Every function but the constructor is run through by all threads of a parallel region, each with its own copies of the scalars; those that go by strips are called
-// for the strips of a thread's own stretch (strip_schedule.hpp).
+// Every function but the constructor is run through by all threads of a parallel region, each with its own copies of
+// the scalars; those that go by strips are called for the strips of a thread's own stretch (strip_schedule.hpp).
 #pragma once
 
 #include <contact/core/active_strips.hpp>
@@ -12,7 +13,8 @@
 
 namespace nonsmooth::contact {
 
-/// A contact outside the blocks, swept row by row; with its data beside it, so that memory is gone through in the order of the sweep.
+/// A contact outside the blocks, swept row by row; with its data beside it, so that memory is gone through in the order
+/// of the sweep.
 template <class Dimension> struct RowIn {
 	typename Dimension::Contact
 	        contact; // names bodies by their places, and has in its biases what the free velocities make of them

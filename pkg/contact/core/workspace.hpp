@@ -10,7 +10,8 @@ template <class Dimension, class Number> struct BodiesIn {
 	std::vector<typename Dimension::template Motion<Number>> now, before; // by place; the last one is nobody
 };
 
-/// Memory that one solve leaves to the next, and the layout in it, which is kept where it fits; what it holds changes no bit.
+/// Memory that one solve leaves to the next, and the layout in it, which is kept where it fits; what it holds changes
+/// no bit.
 template <class Dimension> struct WorkspaceIn {
 	ContactBlocksIn<Dimension>  laidOut;
 	BodiesIn<Dimension, double> inDouble;

@@ -1,16 +1,17 @@
 // Eight contacts at a time: the data and the inner loops of a sweep.
 //
-// A block holds two halves of four contacts; those of a half share no body that moves, nor do in most blocks those of both (BlockBodies::together). Each number of the
-// eight lies side by side, and a body's motion is a vector of four numbers, which are doubles or floats (solver.hpp says when).
-// The loops (block_kernels.inc) are written once and compiled thrice: lane after lane for any processor, and for AVX2 and AVX-512 all lanes at
-// once where they share no body and a register holds them, half after half elsewhere; which runs is decided on the machine. None fuses multiplications with
-// additions or reorders a sum, so all give the same bits.
+// A block holds two halves of four contacts; those of a half share no body that moves, nor do in most blocks those of
+// both (BlockBodies::together). Each number of the eight lies side by side, and a body's motion is a vector of four
+// numbers, which are doubles or floats (solver.hpp says when). The loops (block_kernels.inc) are written once and
+// compiled thrice: lane after lane for any processor, and for AVX2 and AVX-512 all lanes at once where they share no
+// body and a register holds them, half after half elsewhere; which runs is decided on the machine. None fuses
+// multiplications with additions or reorders a sum, so all give the same bits.
 //
-// Bodies carry what impulses have changed of their free velocities, and contacts have in their biases what free velocities make of them: so digits are kept
-// for what the sweeps are about, however fast everything moves.
+// Bodies carry what impulses have changed of their free velocities, and contacts have in their biases what free
+// velocities make of them: so digits are kept for what the sweeps are about, however fast everything moves.
 //
-// Only "simple" contacts fit in: bodies with one mass for x and y, no lever along the normal where a body can turn, no bias but the
-// normal one. That is every contact between disks, or between a disk and a wall that does not turn.
+// Only "simple" contacts fit in: bodies with one mass for x and y, no lever along the normal where a body can turn, no
+// bias but the normal one. That is every contact between disks, or between a disk and a wall that does not turn.
 #pragma once
 
 #include <contact/core/kernel_table.hpp>

@@ -1,21 +1,28 @@
-// A cohesive bond of two bodies in the plane (Taboada and Estrada 2009, section 2.2.2, Figure 2b): marked points, zone, yield, break.
+// A cohesive bond of two bodies in the plane (Taboada and Estrada 2009, section 2.2.2, Figure 2b): marked points, zone,
+// yield, break.
 //
-// When a bond is made, the point P of the second body that is nearest to the first is marked on both, a₁ on the first and a₂ on the second, with the normal n₀
-// seen from the first. Later, with d the displacement of P from the place it had on the first body, in the axes of that moment,
+// When a bond is made, the point P of the second body that is nearest to the first is marked on both, a₁ on the first
+// and a₂ on the second, with the normal n₀ seen from the first. Later, with d the displacement of P from the place it
+// had on the first body, in the axes of that moment,
 //     d = x₂ + q₂ a₂ q₂* − x₁ − q₁ a₁ q₁* ,   n = q₁ n₀ q₁* ,   d_n = d·n ,   d_t = n × d ,
-// the bond lives while (d_n / ε_n ℓ)² + (d_t / ε_t ℓ)² < 1 and is lost for good when it leaves. All comes from positions and rotations.
-// With α₁ and α₂ the angles by which the contact has gone about each body, as seen from it, it has slipped by s = λ₁ α₁ + λ₂ α₂ (λ: centre to contact) and turned by
-// ψ = α₁ − α₂, whose rates are U_t and w of contact/plane/law.hpp; on a straight wall s = d_t − r (ψ − sin ψ). A bond that holds has no such rates: what of s and ψ it has not
-// yielded is an error of position. Where bodies turn as one (rigid_clusters.hpp) it would add up, and the next steps take it back (contact/plane/solver.hpp), as they do with its gap.
-// A bond at its threshold yields. In a step of length h with relative velocities U and impulses P (thresholds as in contact/plane/law.hpp) it yields by
+// the bond lives while (d_n / ε_n ℓ)² + (d_t / ε_t ℓ)² < 1 and is lost for good when it leaves. All comes from
+// positions and rotations. With α₁ and α₂ the angles by which the contact has gone about each body, as seen from it, it
+// has slipped by s = λ₁ α₁ + λ₂ α₂ (λ: centre to contact) and turned by ψ = α₁ − α₂, whose rates are U_t and w of
+// contact/plane/law.hpp; on a straight wall s = d_t − r (ψ − sin ψ). A bond that holds has no such rates: what of s and
+// ψ it has not yielded is an error of position. Where bodies turn as one (rigid_clusters.hpp) it would add up, and the
+// next steps take it back (contact/plane/solver.hpp), as they do with its gap. A bond at its threshold yields. In a
+// step of length h with relative velocities U and impulses P (thresholds as in contact/plane/law.hpp) it yields by
 //     h U_n where P_n = −h F_a and U_n > 0 ,   |h U_t| where |P_t| = μ_s (h F_a + P_n) ,   |h w| ℓ/2 where |P_r| = μ_r ℓ (h F_a + P_n) .
-// The sums over the bond's life are its yield paths; what has more than 0.6 of them all names the break. In tension it keeps the longest gap it has had.
-// A bond that closes freely (contact/plane/law.hpp) has in such a step the gap g of its bodies and the length L that it keeps, which it may not leave:
+// The sums over the bond's life are its yield paths; what has more than 0.6 of them all names the break. In tension it
+// keeps the longest gap it has had. A bond that closes freely (contact/plane/law.hpp) has in such a step the gap g of
+// its bodies and the length L that it keeps, which it may not leave:
 //     b_n = max(g, 0) / h ,   p = max(L, g) / h .
-// It yields by h (U_n + b_n − p) in tension, and as always across. A bond made at touch has L = 0 and is as any other. That the bodies draw together is no damage:
-// d_n < 0 counts as 0. Opened up to L again it is what it was, since no force has done work in between.
-// Sign: d_n > 0 where the bodies have parted, d_t > 0 where the second has gone counter-clockwise about the first. Units: m, s, N s.
-// The first body is the wall, or that of lower id. Deviation from the paper: none; the 0.6 is ours, the paper tells no modes of mixed breaks.
+// It yields by h (U_n + b_n − p) in tension, and as always across. A bond made at touch has L = 0 and is as any other.
+// That the bodies draw together is no damage: d_n < 0 counts as 0. Opened up to L again it is what it was, since no
+// force has done work in between.
+// Sign: d_n > 0 where the bodies have parted, d_t > 0 where the second has gone counter-clockwise about the first.
+// Units: m, s, N s. The first body is the wall, or that of lower id. Deviation from the paper: none; the 0.6 is ours,
+// the paper tells no modes of mixed breaks.
 #pragma once
 
 #include <contact/plane/law.hpp>
@@ -79,7 +86,8 @@ struct BondStrain {
 /// Arc sine to the fifth order: angles in a bond are small.
 inline double smallAngle(double sine) { return sine * (1 + sine * sine / 6); }
 
-/// That of two disks; `normal` now, from the first to the second, with what lies along it from each centre to the contact, and the second's radius [m].
+/// That of two disks; `normal` now, from the first to the second, with what lies along it from each centre to the
+/// contact, and the second's radius [m].
 inline BondStrain bondStrain(
         const BondMarks& marks, const Motion& first, const Motion& second, const Point& normal, double leverFirst,
         double leverSecond, double secondRadius)
@@ -90,7 +98,8 @@ inline BondStrain bondStrain(
 	return { leverFirst * aboutFirst + leverSecond * aboutSecond, aboutFirst - aboutSecond };
 }
 
-/// What of a bond's strain it has not yielded: its error of position. `rest`: what it has yielded, which follows where it slid or rolled in the step before.
+/// What of a bond's strain it has not yielded: its error of position. `rest`: what it has yielded, which follows where
+/// it slid or rolled in the step before.
 inline BondStrain unyielded(const BondStrain& strain, bool slid, bool rolled, BondStrain& rest)
 {
 	if (slid) rest.slip = strain.slip;
@@ -130,7 +139,8 @@ inline double openingOf(const Contact& c, const Impulse& u) { return c.play > 0 
 /// A threshold counts as reached at this share of it.
 constexpr double reached = 1 - 1e-9;
 
-/// Whether a bond with impulses p and velocities u at the end of the step has reached its tensile threshold and opens: it keeps its new length.
+/// Whether a bond with impulses p and velocities u at the end of the step has reached its tensile threshold and opens:
+/// it keeps its new length.
 inline bool yieldsInTension(const Contact& c, const Impulse& p, const Impulse& u)
 {
 	return c.adhesion > 0 && p.n <= -reached * c.adhesion && openingOf(c, u) > 0;

@@ -1,7 +1,8 @@
-// A system of linear equations whose matrix is a band with a border: A = [B C; D E], B of `inner` unknowns with few diagonals, E of the last few.
+// A system of linear equations whose matrix is a band with a border: A = [B C; D E], B of `inner` unknowns with few
+// diagonals, E of the last few.
 //
-// B is factorised by Gaussian elimination with partial pivoting inside the band (Golub and Van Loan, Matrix Computations, section 4.3), E after it
-// as the Schur complement E − D B⁻¹ C. The order of all operations is fixed.
+// B is factorised by Gaussian elimination with partial pivoting inside the band (Golub and Van Loan, Matrix
+// Computations, section 4.3), E after it as the Schur complement E − D B⁻¹ C. The order of all operations is fixed.
 #pragma once
 
 #include <cstddef>

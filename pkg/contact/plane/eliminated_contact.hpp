@@ -1,5 +1,5 @@
-// What the interior-point method (interior_point.hpp, where the equations stand) knows of one contact: its slacks, and what
-// is left of it in the equations of the bodies.
+// What the interior-point method (interior_point.hpp, where the equations stand) knows of one contact: its slacks, and
+// what is left of it in the equations of the bodies.
 #pragma once
 
 #include <algorithm>
@@ -34,8 +34,10 @@ struct Product {
 	}
 };
 
-/// A contact's rows, slacks, and the elimination of them. With play the normal impulse is P_n = a − b: `normal` leads a to 0 or the bodies to their touch,
-/// `drawn` b to 0 or below the bond's length, `spare` F_a − b to 0 or up to it; 0 ≤ U + b_n ⟂ a ≥ 0, p − (U + b_n) = z_drawn − z_spare.
+/// A contact's rows, slacks, and the elimination of them. With play the normal impulse is P_n = a − b: `normal` leads a
+/// to 0 or the bodies to their touch,
+/// `drawn` b to 0 or below the bond's length, `spare` F_a − b to 0 or up to it; 0 ≤ U + b_n ⟂ a ≥ 0, p − (U + b_n) =
+/// z_drawn − z_spare.
 struct Eliminated {
 	std::array<std::array<double, 6>, 3> rows; // H
 	Impulse                              w, inverse; // W and 1/W

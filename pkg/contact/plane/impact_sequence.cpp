@@ -273,8 +273,8 @@ template <class Function> void ImpactSequence::eachBody(const Event& event, Func
 	}
 }
 
-/// Whether the step's solve may have this impact, the only one of its bodies: something holds them, or others touch them, and none of them closes another gap in a
-/// whole step, neither with the velocities before nor with those after.
+/// Whether the step's solve may have this impact, the only one of its bodies: something holds them, or others touch
+/// them, and none of them closes another gap in a whole step, neither with the velocities before nor with those after.
 bool ImpactSequence::staysAlone(const Event& event) const
 {
 	const auto free = [this](int body) {
@@ -294,7 +294,8 @@ bool ImpactSequence::staysAlone(const Event& event) const
 	return alone;
 }
 
-/// Whether a pair would close in a whole step from where it stands, or where impacts within the step have displaced a body that is not among `own`.
+/// Whether a pair would close in a whole step from where it stands, or where impacts within the step have displaced a
+/// body that is not among `own`.
 bool ImpactSequence::closes(const ImpactPair& pair, const std::vector<int>& own) const
 {
 	if (pair.held) return false;

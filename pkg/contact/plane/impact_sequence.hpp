@@ -1,23 +1,29 @@
-// Impacts that follow from impacts within one step: pairs that meet are taken one after the other, in the order of time, by Newton's law of impact.
+// Impacts that follow from impacts within one step: pairs that meet are taken one after the other, in the order of
+// time, by Newton's law of impact.
 //
-// Within the step bodies fly straight, with the velocities they have, x(t) = x + t v; forces act in the step's solve, which comes after. The next pair to meet
-// has the least t with a gap g(t) = 0 and U_n < 0. At that moment the impulses P of this pair, and of all pairs that touch and hang together with it,
+// Within the step bodies fly straight, with the velocities they have, x(t) = x + t v; forces act in the step's solve,
+// which comes after. The next pair to meet has the least t with a gap g(t) = 0 and U_n < 0. At that moment the impulses
+// P of this pair, and of all pairs that touch and hang together with it,
 //     0 ≤ (U_n + e min(U_n⁻, 0)) ⟂ P_n ≥ 0 ,   |P_t| ≤ μ P_n against U_t ,   |P_r| ≤ μ_r ℓ P_n against w ,   v ← v + M⁻¹ Hᵀ P ,
-// with U⁻ just before and U just after, make the velocities of what follows. A body that is hit at t has come the way t v⁻ and has (h − t) v left: it comes
-// as far as if it had flown with v all the time from
+// with U⁻ just before and U just after, make the velocities of what follows. A body that is hit at t has come the way t
+// v⁻ and has (h − t) v left: it comes as far as if it had flown with v all the time from
 //     x + s ,   s ← s − t (v − v⁻) ,
-// so a step that begins with the velocities v, displaces bodies by s and moves them by h v is exact. Of two disks the normal turns as they pass each
-// other, so momentum, angular momentum and for e = 1 without friction energy are kept to rounding; other contacts keep their normal.
+// so a step that begins with the velocities v, displaces bodies by s and moves them by h v is exact. Of two disks the
+// normal turns as they pass each other, so momentum, angular momentum and for e = 1 without friction energy are kept to
+// rounding; other contacts keep their normal.
 //
-// An impact that stays alone at a body that is held, or among bodies that touch, is left to the step's solve, where forces act too: none of its bodies is in
-// another impact, nor would be if it went the whole step from where it stands with the velocity that the impact leaves. So is what cannot be followed: an impact
-// on bodies that hang together by more than `largest` contacts, by bonds or by adhesion, and what comes after it at these bodies; and what a body has beyond
-// its `most` impacts in one step.
+// An impact that stays alone at a body that is held, or among bodies that touch, is left to the step's solve, where
+// forces act too: none of its bodies is in another impact, nor would be if it went the whole step from where it stands
+// with the velocity that the impact leaves. So is what cannot be followed: an impact on bodies that hang together by
+// more than `largest` contacts, by bonds or by adhesion, and what comes after it at these bodies; and what a body has
+// beyond its `most` impacts in one step.
 //
-// Pairs up to 1e-9 ℓ apart that do not part touch; those that have met in the step do not hang together any more, and are taken one after the other. Impacts with e < 1 may
-// follow each other ever faster, until bodies move together (McNamara and Young 1992): this ends where a pair would come nearer by less than 1e-7 ℓ in a step.
-// Symbols as in contact/plane/law.hpp and contact/plane/problem.hpp.
-// Sources: event-driven simulation after Alder and Wainwright (1959, J. Chem. Phys. 31, 459); McNamara and Young (1992, Phys. Fluids A 4, 496); law of impact: Moreau (1988).
+// Pairs up to 1e-9 ℓ apart that do not part touch; those that have met in the step do not hang together any more, and
+// are taken one after the other. Impacts with e < 1 may follow each other ever faster, until bodies move together
+// (McNamara and Young 1992): this ends where a pair would come nearer by less than 1e-7 ℓ in a step. Symbols as in
+// contact/plane/law.hpp and contact/plane/problem.hpp.
+// Sources: event-driven simulation after Alder and Wainwright (1959, J. Chem. Phys. 31, 459); McNamara and Young (1992,
+// Phys. Fluids A 4, 496); law of impact: Moreau (1988).
 #pragma once
 
 #include <contact/plane/problem.hpp>
@@ -127,7 +133,8 @@ private:
 	std::vector<Meeting>           meetings; // a heap, the next one first
 	std::vector<Event>             events;
 	std::vector<Hit>               hits;
-	// of one impact: the pairs that hang together, their bodies that move; as they stand, their velocities before, what they get
+	// of one impact: the pairs that hang together, their bodies that move; as they stand, their velocities before,
+	// what they get
 	std::vector<int>     touching, bodies;
 	std::vector<Contact> frames;
 	std::vector<Impulse> approach, impulses;

@@ -11,14 +11,15 @@
 //   overlap or bond       b_n = 0            errors of position are taken back by displacements, see solver.hpp
 //   impact                b_n = e U^n_before Newton's restitution
 //                         impacts that follow from impacts in the same step are taken before: impact_sequence.hpp
-// A bond of length L > 0 that closes freely bears tension at this length and compression where its bodies touch. Between the two it has play:
+// A bond of length L > 0 that closes freely bears tension at this length and compression where its bodies touch.
+// Between the two it has play:
 //     U^n + b_n = 0 and N ≥ 0 ,   0 < U^n + b_n < p and N = 0 ,   U^n + b_n = p and −F_a ≤ N ≤ 0 ,   U^n + b_n > p and N = −F_a ,
 //     p = L / h the play, b_n = g / h. T_max and Γ_max as above with this N: those of N = 0 while it has play.
 // It is a maximal monotone graph, too, that of −∂ψ with ψ(N) = p max(−N, 0) on N ≥ −F_a, and p = 0 gives (1).
 // Each graph "x ∈ K, −u ∈ N_K(x)" is the fixed point x = proj_K(x − ρ u) for every ρ > 0; the residual of a solution is
 // the distance from that fixed point with ρ the inverse diagonal of the Delassus operator (natural map).
-// Sign: compression and opening positive, impulses positive on body j. Deviation from the paper: none in the graphs; the biases are
-// the discretisation's.
+// Sign: compression and opening positive, impulses positive on body j. Deviation from the paper: none in the graphs;
+// the biases are the discretisation's.
 #pragma once
 
 #include <algorithm>
@@ -59,13 +60,14 @@ inline Impulse delassus(const Contact& c, const InverseMass& mi, const InverseMa
 inline Impulse inverseDelassus(const Contact& c, const InverseMass& mi, const InverseMass& mj)
 {
 	const auto [wn, wt, wr] = delassus(c, mi, mj);
-	// A row that no impulse moves may still be driven (a wall drawn under a disk that is held): any factor leads to its threshold.
+	// A row that no impulse moves may still be driven (a wall drawn under a disk that is held): any factor leads to
+	// its threshold.
 	const double n = wn > 0 ? 1 / wn : 0;
 	return { n, wt > 0 ? 1 / wt : n, wr > 0 ? 1 / wr : n * c.length * c.length };
 }
 
-/// One contact solved while all others keep their impulses, one after the other of its three graphs: from the impulses `y` to those
-/// returned, with the velocities of its bodies.
+/// One contact solved while all others keep their impulses, one after the other of its three graphs: from the impulses
+/// `y` to those returned, with the velocities of its bodies.
 inline Impulse
 visit(const Contact& c, const Impulse& y, const Impulse& inverse, const InverseMass& mi, const InverseMass& mj,
       Twist& vi, Twist& vj)
@@ -81,8 +83,9 @@ visit(const Contact& c, const Impulse& y, const Impulse& inverse, const InverseM
 	return { n, t, r };
 }
 
-/// Impulses of a contact whose relative velocities `u` are given, so that no impulse changes them: what the graphs say, and where they allow a range the least of it.
-/// It is the limit of bodies whose masses grow without end. Where the bodies approach (U_n < 0, or beyond touch what has play) no finite impulse obeys the law: none.
+/// Impulses of a contact whose relative velocities `u` are given, so that no impulse changes them: what the graphs say,
+/// and where they allow a range the least of it. It is the limit of bodies whose masses grow without end. Where the
+/// bodies approach (U_n < 0, or beyond touch what has play) no finite impulse obeys the law: none.
 inline Impulse impulseOfGivenMotion(const Contact& c, const Impulse& u)
 {
 	const bool   plays = c.play > 0;
@@ -96,8 +99,9 @@ inline Impulse impulseOfGivenMotion(const Contact& c, const Impulse& u)
 	return { n, against(u.t, slidingThreshold(c, n)), against(u.r, rollingThreshold(c, n)) };
 }
 
-/// Natural map: what one contact misses of its graphs, P − proj(P − (U + b)/W), row by row [N s, N s, N m s]; with play the proximal point is in the place of the nearest.
-/// `u`: relative velocity without bias; `inverse`: inverseDelassus of the contact.
+/// Natural map: what one contact misses of its graphs, P − proj(P − (U + b)/W), row by row [N s, N s, N m s]; with play
+/// the proximal point is in the place of the nearest. `u`: relative velocity without bias; `inverse`: inverseDelassus
+/// of the contact.
 inline Impulse naturalMapDefect(const Contact& c, const Impulse& p, const Impulse& u, const Impulse& inverse)
 {
 	return { p.n - obeyNormal(c, p.n - inverse.n * (u.n + c.biasN), inverse.n),

@@ -1,12 +1,14 @@
-// Where masses jump: patches of contacts around heavy bodies among light ones, which are solved at once (interior_point.hpp).
+// Where masses jump: patches of contacts around heavy bodies among light ones, which are solved at once
+// (interior_point.hpp).
 //
-// Sweeps build up the reaction to a heavy body in steps of the light bodies' impulses, so that their number grows with the ratio of masses, accelerated ones with its
-// root. Where a body is massJump times as heavy as one that it touches, the contacts around it make a patch: those of the bodies that are nearest to it
-// counted by contacts, up to mostInPatch bodies, as far as they couple these to each other and to what cannot move. Every other contact keeps its impulse
-// meanwhile. Heavier bodies come first; one that is in a patch already gets none of its own.
+// Sweeps build up the reaction to a heavy body in steps of the light bodies' impulses, so that their number grows with
+// the ratio of masses, accelerated ones with its root. Where a body is massJump times as heavy as one that it touches,
+// the contacts around it make a patch: those of the bodies that are nearest to it counted by contacts, up to
+// mostInPatch bodies, as far as they couple these to each other and to what cannot move. Every other contact keeps its
+// impulse meanwhile. Heavier bodies come first; one that is in a patch already gets none of its own.
 //
-// A packing of many sizes has jumps everywhere, and sweeps do well there: where more than one body in eight is the heavy one of a jump, only problems of up
-// to fewBodies get patches.
+// A packing of many sizes has jumps everywhere, and sweeps do well there: where more than one body in eight is the
+// heavy one of a jump, only problems of up to fewBodies get patches.
 #pragma once
 
 #include <contact/core/mass_ratio.hpp>

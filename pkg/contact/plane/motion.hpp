@@ -1,14 +1,16 @@
 // Motion of a rigid body in the plane: a step of its motion, a displacement, vectors turned with it.
 //
-// With h the step, f and M force and torque, m and I mass and moment of inertia about z, g gravity, q = cos φ/2 + ẑ sin φ/2:
+// With h the step, f and M force and torque, m and I mass and moment of inertia about z, g gravity, q = cos φ/2 + ẑ sin
+// φ/2:
 //     v⁺ = v + h (f/m + g) ,   ω⁺ = ω + h M/I ,   x⁺ = x + h v⁺ ,   q⁺ = (cos ½hω⁺ + ẑ sin ½hω⁺) q / |q|        (integrate)
 //     x⁺ = x + d ,   q⁺ = (cos ½δ + ẑ sin ½δ) q / |q| for a displacement (d, δ)                                  (displace)
 //     q v q* and q* v q, vectors of the body's frame in the plane's and back                                    (rotate, rotateBack)
-// which is Moreau-Jean with θ = 1, as f holds the contacts' mean forces. In a blocked direction a velocity stays as it is.
+// which is Moreau-Jean with θ = 1, as f holds the contacts' mean forces. In a blocked direction a velocity stays as it
+// is.
 // Sign: ω, M and φ counter-clockwise positive. Units: m, s, kg, N, rad; masses and forces per metre of thickness.
 //
-// The bits are those of YADE's integrator and of Eigen in space where all that is out of the plane is +0: terms of such zeros are left out, but
-// where they decide the sign of a zero.
+// The bits are those of YADE's integrator and of Eigen in space where all that is out of the plane is +0: terms of such
+// zeros are left out, but where they decide the sign of a zero.
 #pragma once
 
 #include <cmath>
@@ -27,7 +29,8 @@ struct Motion {
 	Twist    velocity;
 };
 
-/// Directions in which a body keeps its velocity, as in YADE's State::blockedDOFs; with `blockedAll`, out of the plane too, nothing is even added to it.
+/// Directions in which a body keeps its velocity, as in YADE's State::blockedDOFs; with `blockedAll`, out of the plane
+/// too, nothing is even added to it.
 constexpr unsigned blockedX = 1, blockedY = 2, blockedTurn = 32, blockedAll = 63;
 
 /// v seen from the plane, for v in the frame of a body with that rotation. A zero may have the other sign than Eigen's.
@@ -60,7 +63,8 @@ inline Rotation normalized(const Rotation& q)
 	return { q.z / length, q.w / length };
 }
 
-/// Velocity and place at the end of a step of length h [s], with force and torque [N, N m]; mass and moment of inertia [kg, kg m²] are not looked at where blocked.
+/// Velocity and place at the end of a step of length h [s], with force and torque [N, N m]; mass and moment of inertia
+/// [kg, kg m²] are not looked at where blocked.
 inline void
 integrate(Motion& m, const Twist& force, double mass, double inertia, unsigned blocked, const Point& gravity, double h)
 {

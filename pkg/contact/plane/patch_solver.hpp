@@ -1,4 +1,5 @@
-// Patches around mass jumps (mass_jumps.hpp), solved between the sweeps over all contacts: what they read from blocks and rows, and write back.
+// Patches around mass jumps (mass_jumps.hpp), solved between the sweeps over all contacts: what they read from blocks
+// and rows, and write back.
 #pragma once
 
 #include <contact/plane/interior_point.hpp>
@@ -14,8 +15,9 @@ public:
 	explicit PatchSolver(Sweeper<Plane, double>& sweeper);
 
 	bool any() const { return !patches.empty(); }
-	/// Solves the patches that miss more of their speed than a tenth of the tolerance, but none that would take more visits than `most`; returns whether anything has changed. The residual is then
-	/// to be measured anew. One thread's work: each patch begins with what the one before left.
+	/// Solves the patches that miss more of their speed than a tenth of the tolerance, but none that would take
+	/// more visits than `most`; returns whether anything has changed. The residual is then to be measured anew. One
+	/// thread's work: each patch begins with what the one before left.
 	bool settle(double tolerance, double most);
 	/// The largest rms ϑ of a patch, as settle() left them.
 	double speed() const { return worst; }

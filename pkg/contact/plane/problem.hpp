@@ -38,7 +38,8 @@ struct Impulse {
 	double n = 0, t = 0, r = 0;
 };
 
-/// What is known of one contact before the solve. `bias*` are the right-hand sides b of the graphs in law.hpp [m/s, m/s, rad/s].
+/// What is known of one contact before the solve. `bias*` are the right-hand sides b of the graphs in law.hpp [m/s,
+/// m/s, rad/s].
 struct Contact {
 	std::int32_t i = 0, j = 0;
 	double       nx = 1, ny = 0;

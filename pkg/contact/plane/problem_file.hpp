@@ -25,11 +25,12 @@ struct RecordedProblem {
 	double               timeStep = 0; // h [s]
 };
 
-/// Writes beside and renames (whole_file.hpp), so that no half-written file is ever there. Throws std::runtime_error naming the file and what helps.
+/// Writes beside and renames (whole_file.hpp), so that no half-written file is ever there. Throws std::runtime_error
+/// naming the file and what helps.
 void write(const std::string& path, const RecordedProblem& recorded);
 
-/// Throws std::runtime_error naming the file and what is missing or wrong in it: shapes, kinds of numbers, bodies that are not there, sizes that the file
-/// cannot hold. Values are the solver's to refuse (problem_check.hpp).
+/// Throws std::runtime_error naming the file and what is missing or wrong in it: shapes, kinds of numbers, bodies that
+/// are not there, sizes that the file cannot hold. Values are the solver's to refuse (problem_check.hpp).
 RecordedProblem read(const std::string& path);
 
 } // namespace nonsmooth::contact

@@ -17,7 +17,8 @@ inline bool acts(const Contact& c, const Impulse& p, const Impulse& defect)
 {
 	return p.n + c.adhesion > 0 || defect.n != 0;
 }
-/// That of a contact with the impulses `p` that misses `defect`; `vi`, `vj`: what impulses have changed of its bodies' velocities.
+/// That of a contact with the impulses `p` that misses `defect`; `vi`, `vj`: what impulses have changed of its bodies'
+/// velocities.
 SpeedShare speedShare(
         const Contact& c, const Impulse& p, const Impulse& defect, const InverseMass& mi, const InverseMass& mj,
         const Twist& vi, const Twist& vj, const SpeedScale& scale);
@@ -28,7 +29,8 @@ std::vector<Twist> velocitiesOf(const Problem& problem);
 /// What each contact of problem.impulses misses: P − proj(P − (U + b)/W), row by row [N s, N s, N m s].
 std::vector<Impulse> naturalMapDefects(const Problem& problem);
 
-/// The same distance as velocities, W (P − proj(P − (U + b)/W)) [m/s; rolling: times ℓ]: how far the relative velocities are from the graphs.
+/// The same distance as velocities, W (P − proj(P − (U + b)/W)) [m/s; rolling: times ℓ]: how far the relative
+/// velocities are from the graphs.
 SpeedResidual naturalMapSpeeds(const Problem& problem);
 
 /// Of every contact of problem.impulses.

@@ -28,7 +28,8 @@ namespace {
 		const bool hasPlaces = !problem.positions.empty();
 		double     lowX = HUGE_VAL, lowY = HUGE_VAL, highX = -HUGE_VAL, highY = -HUGE_VAL, most = 0,
 		       lightness = HUGE_VAL, lightest = 0, heaviest = HUGE_VAL; // the last one as an inverse mass
-		// plates of presses and boxes, which go along one line, are heavy by their driving and not beside their neighbours
+		// plates of presses and boxes, which go along one line, are heavy by their driving and not beside their
+		// neighbours
 		const bool counted = problem.bodyCount() <= fewBodies;
 		long       bad = count, astray = count; // the first ones, found by threads, which must not throw
 		result.traits.resize(count);

@@ -12,8 +12,9 @@ inline Coordinates coordinatesOf(const Problem& problem)
 	return { problem.positions.empty() ? nullptr : &problem.positions.front().x, problem.positions.size(), 2 };
 }
 
-/// Looks with so many threads; without `blocks` no contact fits into them. Throws std::invalid_argument naming the first size, body or contact that cannot be
-/// used, and why; whatever `result` holds then is no last look for the next one.
+/// Looks with so many threads; without `blocks` no contact fits into them. Throws std::invalid_argument naming the
+/// first size, body or contact that cannot be used, and why; whatever `result` holds then is no last look for the next
+/// one.
 void survey(const Problem& problem, int threads, bool blocks, Survey& result);
 
 } // namespace nonsmooth::contact

@@ -1,10 +1,12 @@
-// What a contact can bear in a step: the thresholds of the law in contact/plane/law.hpp from the strengths of the contact (Taboada and Estrada 2009, section 2.2).
+// What a contact can bear in a step: the thresholds of the law in contact/plane/law.hpp from the strengths of the
+// contact (Taboada and Estrada 2009, section 2.2).
 //
 //     bonded         F_a, μ_s, μ_r ℓ of the bond
 //     touching       the residual ones: g ≤ r ℓ, with g the gap and r the range of adhesion
 //     neither        residual μ_s and μ_r ℓ, F_a = 0
-// Symbols: F_a = σ ℓ tensile force [N], μ_s friction, μ_r ℓ rolling arm [m], ℓ length of the contact [m]. All are positive or 0.
-// What two materials agree on (Strengths) has no length in it: many contacts of different disks share it.
+// Symbols: F_a = σ ℓ tensile force [N], μ_s friction, μ_r ℓ rolling arm [m], ℓ length of the contact [m]. All are
+// positive or 0. What two materials agree on (Strengths) has no length in it: many contacts of different disks share
+// it.
 #pragma once
 
 #include <tuple>

@@ -1,12 +1,15 @@
-// A cohesive bond of two bodies in space: that of the plane (contact/plane/bond.hpp) with an ellipsoid for the ellipse, whose third axis is the twist.
+// A cohesive bond of two bodies in space: that of the plane (contact/plane/bond.hpp) with an ellipsoid for the ellipse,
+// whose third axis is the twist.
 //
-// When a bond is made, the point P of the second body that is nearest to the first is marked on both, with the normal n₀ seen from the first and the turn of the second
-// against the first. Later, with d the displacement of P from the place it had on the first body, n = q₁ n₀ q₁*, and θ the rotation vector of what the second
-// has turned since against the first,
+// When a bond is made, the point P of the second body that is nearest to the first is marked on both, with the normal
+// n₀ seen from the first and the turn of the second against the first. Later, with d the displacement of P from the
+// place it had on the first body, n = q₁ n₀ q₁*, and θ the rotation vector of what the second has turned since against
+// the first,
 //     d_n = d·n ,   d_t = |d − d_n n| ,   τ = θ·n ,
-// the bond lives while (d_n / ε_n ℓ)² + (d_t / ε_t ℓ)² + (τ / ε_τ)² < 1 and is lost for good when it leaves. P lies on the bond's axis, so that a twist does not move it; that
-// is why τ has an axis of its own. A roll moves P, as in the plane.
-// A bond at its threshold yields. In a step of length h with relative velocities U, w and impulses P (thresholds as in space/law.hpp) it yields by
+// the bond lives while (d_n / ε_n ℓ)² + (d_t / ε_t ℓ)² + (τ / ε_τ)² < 1 and is lost for good when it leaves. P lies on
+// the bond's axis, so that a twist does not move it; that is why τ has an axis of its own. A roll moves P, as in the
+// plane. A bond at its threshold yields. In a step of length h with relative velocities U, w and impulses P (thresholds
+// as in space/law.hpp) it yields by
 //     h U_n where P_n = −h F_a and U_n > 0 ,   |h U_t| where |P_t| = h T_max ,   |h w_r| ℓ/2 where |P_r| = h Γ_max ,   |h w_s| ℓ/2 where |P_s| = h Σ_max .
 // The sums over the bond's life are its yield paths; what has more than 0.6 of them all names the break.
 // Sign: d_n > 0 where the bodies have parted. Units: m, s, N s, rad. The first body is the wall, or that of lower id.

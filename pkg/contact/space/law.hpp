@@ -1,5 +1,5 @@
-// The cohesive contact law in space, as one projection: that of the plane (contact/plane/law.hpp) with discs in the place of
-// intervals, and a fourth graph for twisting.
+// The cohesive contact law in space, as one projection: that of the plane (contact/plane/law.hpp) with discs in the
+// place of intervals, and a fourth graph for twisting.
 //
 // Equations. N, T, Γ, Σ are the normal force, the shear force, the rolling torque and the twisting torque of a contact,
 // T ⟂ n, Γ ⟂ n; U_n, U_t, w_r, w_s the relative
@@ -126,8 +126,8 @@ visit(const Contact& c, const Impulse& y, const Diagonal& inverse, const Inverse
 	return impulseOf(c, to);
 }
 
-/// As in the plane (contact/plane/law.hpp): impulses of a contact whose relative velocity `u` is given, so that no impulse
-/// changes it.
+/// As in the plane (contact/plane/law.hpp): impulses of a contact whose relative velocity `u` is given, so that no
+/// impulse changes it.
 inline Impulse impulseOfGivenMotion(const Contact& c, const RelativeVelocity& u)
 {
 	const bool   plays = c.play > 0;

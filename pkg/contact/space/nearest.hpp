@@ -1,10 +1,12 @@
 // Nearest points of a triangle, a box and a plane to a point: where a sphere with its centre there can touch them.
 //
-// A triangle (a, b, c) with edges k = 0, 1, 2 from vertex k to vertex k + 1. The nearest point q of the triangle to p lies in its face where the foot of
-// the perpendicular is inside of all three edges, else on an edge where its foot is between two vertices, else at a vertex (Voronoi regions; Ericson 2005,
-// Real-Time Collision Detection, section 5.1.5). A foot that is inside by less than `edgeWidth` of the triangle's size counts as one on the edge, so that two triangles
-// that share an edge never both have it in their faces.
-// Units: m. Nothing here depends on the order in which a triangle's vertices are named but the numbers of its edges and vertices.
+// A triangle (a, b, c) with edges k = 0, 1, 2 from vertex k to vertex k + 1. The nearest point q of the triangle to p
+// lies in its face where the foot of the perpendicular is inside of all three edges, else on an edge where its foot is
+// between two vertices, else at a vertex (Voronoi regions; Ericson 2005, Real-Time Collision Detection, section 5.1.5).
+// A foot that is inside by less than `edgeWidth` of the triangle's size counts as one on the edge, so that two
+// triangles that share an edge never both have it in their faces.
+// Units: m. Nothing here depends on the order in which a triangle's vertices are named but the numbers of its edges and
+// vertices.
 #pragma once
 
 #include <algorithm>
@@ -87,7 +89,8 @@ inline Aside asideOfBox(const Vector& half, const Vector& p)
 		 { axis == 0 ? side : 0, axis == 1 ? side : 0, axis == 2 ? side : 0 } };
 }
 
-/// Of a plane across an axis, for a point at `offset` [m] from it along that axis. `sense`: the side that acts, 0 both. One-sided, it also pushes back what is behind it.
+/// Of a plane across an axis, for a point at `offset` [m] from it along that axis. `sense`: the side that acts, 0 both.
+/// One-sided, it also pushes back what is behind it.
 inline Aside asideOfPlane(int axis, int sense, double offset)
 {
 	const double side = sense != 0 ? sense : (offset < 0 ? -1 : 1);

@@ -1,6 +1,6 @@
-// The natural-map residual in space: definitions and figures are those of the plane (contact/core/residual.hpp), with |P_t|²
-// in the place of P_t², and with rolling and
-// twisting as one moment, divided by ℓ as an impulse and times the arm λ_i − λ_j as a speed.
+// The natural-map residual in space: definitions and figures are those of the plane (contact/core/residual.hpp), with
+// |P_t|² in the place of P_t², and with rolling and twisting as one moment, divided by ℓ as an impulse and times the
+// arm λ_i − λ_j as a speed.
 #pragma once
 
 #include <contact/core/residual.hpp>

@@ -30,10 +30,12 @@ namespace {
 			     + " N/m, and a rigid contact has no stiffness: leave kn and ks 0");
 		if (name == "tangensOfFrictionAngle")
 			fail(pair + " was given phys.tangensOfFrictionAngle = " + number(phys.residualFriction)
-			     + ", but slip rules the friction of this wall: set frictionAngle and weakenedFrictionAngle of a SlipWeakeningMat and call ContactDynamicsEngine.updateStrengths(), or give the wall another law");
+			     + ", but slip rules the friction of this wall: set frictionAngle and weakenedFrictionAngle of a "
+			       "SlipWeakeningMat and call ContactDynamicsEngine.updateStrengths(), or give the wall another law");
 		fail(pair + " was given phys.normalForce = " + vector(phys.normalForce)
 		     + " and phys.shearForce = " + vector(phys.shearForce)
-		     + " N by a script, and the solver computes these forces in each step: press bodies by O.forces.setPermF, or set both to zero if the solver is to begin without a first guess");
+		     + " N by a script, and the solver computes these forces in each step: press bodies by "
+		       "O.forces.setPermF, or set both to zero if the solver is to begin without a first guess");
 	}
 
 	/// Sphere of a scene by id, null where the body is none.
@@ -59,7 +61,8 @@ namespace {
 		}
 	}
 
-	/// How far functors and the law look: less than a touching contact, or what is no number, would let disks pass through each other.
+	/// How far functors and the law look: less than a touching contact, or what is no number, would let disks pass
+	/// through each other.
 	void checkReach(const InteractionLoop& loop, const Collider& collider)
 	{
 		const auto refuseReach = [](const Engine& engine, const string& functor, const string& name, Real value,
@@ -137,7 +140,8 @@ void checkShapes(const Scene& scene, const std::vector<BodyReading>& bodies, con
 		const auto& b = (*scene.bodies)[id];
 		if (!b->shape && b->isBounded() && (bodies[id].blocked & inPlane) != inPlane)
 			fail(body(id)
-			     + " may move and has no shape (shape = None), so that it goes through everything: give it one, as Sphere(radius=...), erase it, or set its bounded = False if nothing is to touch it");
+			     + " may move and has no shape (shape = None), so that it goes through everything: give it one, as "
+			       "Sphere(radius=...), erase it, or set its bounded = False if nothing is to touch it");
 		if (const Sphere* sphere = b->shape && b->isBounded() ? sphereOf(*b) : nullptr)
 			fail(body(id) + " is a Sphere of radius " + number(sphere->radius)
 			     + ": give it a positive radius [m]");
@@ -193,7 +197,8 @@ void checkMaterials(const Scene& scene, const std::vector<BodyReading>& bodies)
 		}
 		fail(body(id) + " has another material, a " + b->material->getClassName()
 		     + (b->material->label.empty() ? "" : " '" + b->material->label + "'") + ", and " + named(*loop)
-		     + " has no Ip2 functor for it and an NscdMat, so that its first contact would end the run: give it an NscdMat, or set the body's bounded = False if nothing is to touch it");
+		     + " has no Ip2 functor for it and an NscdMat, so that its first contact would end the run: give it an "
+		       "NscdMat, or set the body's bounded = False if nothing is to touch it");
 	}
 }
 
@@ -223,7 +228,8 @@ void refuseContact(const Scene& scene, const Reading& reading)
 			return number(b.state->pos[0]) + ", " + number(b.state->pos[1]);
 		};
 		fail(pair + " has no normal: the centres are at one place, (" + place(*b1) + ") and (" + place(*b2)
-		     + ") m, or a position is not finite. A script has put them there, or a load has pressed one through the other in steps that were not solved: check"
+		     + ") m, or a position is not finite. A script has put them there, or a load has pressed one through the "
+		       "other in steps that were not solved: check"
 		       " contactDynamics.overlapWorst and .unconverged of the steps before, and move one of them");
 	}
 	if (!reading.usable && std::abs(reading.nz) > flatness)
@@ -236,7 +242,8 @@ void refuseContact(const Scene& scene, const Reading& reading)
 	     + number(reading.adhesion) + " N, rolling arm " + number(reading.rollingArm) + " m, mean diameter "
 	     + number(reading.length) + " m, restitution " + number(reading.restitution)
 	     + (name ? string(", phys.") + name + " " + number(value) : "")
-	     + "; all must be finite and not negative, the diameter and a bond's ellipse positive, restitution from 0 to 1: set them in its phys, or take the values of the materials with "
+	     + "; all must be finite and not negative, the diameter and a bond's ellipse positive, restitution from "
+	       "0 to 1: set them in its phys, or take the values of the materials with "
 	       "ContactDynamicsEngine.updateStrengths()");
 }
 

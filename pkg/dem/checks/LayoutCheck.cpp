@@ -35,7 +35,8 @@
 #include <pkg/dem/ScGeom.hpp>
 #include <pkg/dem/UniaxialStrainer.hpp>
 // clang-format off
-// their headers have classes that draw too, whose code a YADE without OpenGL has not: this library must load whatever the macros were
+// their headers have classes that draw too, whose code a YADE without OpenGL has not: this library must load whatever
+// the macros were
 #pragma push_macro("YADE_OPENGL")
 #undef YADE_OPENGL
 #include <pkg/common/Wall.hpp>
@@ -112,7 +113,8 @@ void checkLayout()
 	const std::size_t tags  = static_cast<const Scene&>(*scene).tags.size(); // every new scene has some
 	if (tags < 1 or tags > 1000) misplaced("Scene.tags");
 
-	// the containers of a scene, two of which have no attributes that could be set: what YADE's own code leaves in them
+	// the containers of a scene, two of which have no attributes that could be set: what YADE's own code leaves in
+	// them
 	auto& live = static_cast<Scene&>(*scene);
 	if (live.interactions->size() != 0 or live.interactions->iterColliderLastRun != -1)
 		misplaced("InteractionContainer.iterColliderLastRun");

@@ -61,25 +61,35 @@ namespace {
 			     + ", which would change the impulses: set damping=0 (rigid contacts dissipate by themselves)");
 		if (newton.mask > 0)
 			fail("NewtonIntegrator.mask = " + std::to_string(newton.mask)
-			     + ": bodies outside of the mask would not move, and the solver would take them for moving: set mask=-1, and block the DOFs of bodies that must stay");
+			     + ": bodies outside of the mask would not move, and the solver would take them for moving: set mask=-1, "
+			       "and block the DOFs of bodies that must stay");
 		if (newton.densityScaling)
-			fail("NewtonIntegrator.densityScaling = True, which changes masses that the solver does not see: set densityScaling=False (rigid contacts do not need it)");
+			fail("NewtonIntegrator.densityScaling = True, which changes masses that the solver does not see: set "
+			     "densityScaling=False (rigid contacts do not need it)");
 	}
 
-	/// Engines of YADE's that steer by what rigid contacts and flat scenes have not, with what does their work; by name, since not every YADE has all of them.
+	/// Engines of YADE's that steer by what rigid contacts and flat scenes have not, with what does their work; by
+	/// name, since not every YADE has all of them.
 	void refuseController(const Engine& engine)
 	{
 		thread_local std::unordered_set<std::type_index>
 		        others; // classes that are none of these: a name costs more than a type
 		if (others.count(typeid(engine))) return;
 		static const string stress
-		        = " moves walls by the stiffness of their contacts, and rigid contacts have none, so that walls would go to and fro at max_vel: load plates instead (yade.nonsmooth.scene.plate), set the state.vel of walls that are to move at a given rate, or shear a sample by scripts/biaxial.py";
+		        = " moves walls by the stiffness of their contacts, and rigid contacts have none, so that walls would "
+		          "go to and fro at max_vel: load plates instead (yade.nonsmooth.scene.plate), set the state.vel of "
+		          "walls that are to move at a given rate, or shear a sample by scripts/biaxial.py";
 		static const string lid
-		        = " holds the load on its lid by the stiffness of the contacts, and rigid contacts have none, so that the lid would keep its height: load the lid by yade.nonsmooth.scene.plate, and set the state.vel of the parts that are to move";
+		        = " holds the load on its lid by the stiffness of the contacts, and rigid contacts have none, so that "
+		          "the lid would keep its height: load the lid by yade.nonsmooth.scene.plate, and set the state.vel of "
+		          "the parts that are to move";
 		static const string cell
-		        = " steers a periodic cell, and periodic scenes are not supported: bound the scene by walls and load them by yade.nonsmooth.scene.plate, or shear a sample by scripts/biaxial.py";
+		        = " steers a periodic cell, and periodic scenes are not supported: bound the scene by walls and load "
+		          "them by yade.nonsmooth.scene.plate, or shear a sample by scripts/biaxial.py";
 		static const string record
-		        = " reads a triaxial engine, and those move walls by the stiffness of contacts, which rigid ones have not: read O.forces.f of the walls after the integrator, or load and width of what yade.nonsmooth.scene.plate returns";
+		        = " reads a triaxial engine, and those move walls by the stiffness of contacts, which rigid ones have "
+		          "not: read O.forces.f of the walls after the integrator, or load and width of what "
+		          "yade.nonsmooth.scene.plate returns";
 		static const std::map<string, const string*> refused {
 			{ "TriaxialStressController", &stress },
 			{ "TriaxialCompressionEngine", &stress },
@@ -97,7 +107,8 @@ namespace {
 		others.insert(typeid(engine));
 	}
 
-	/// Refuses paths of a LawTester that leave the plane: of its axes the third one, and of its angles the first two, do.
+	/// Refuses paths of a LawTester that leave the plane: of its axes the third one, and of its angles the first
+	/// two, do.
 	void checkTester(const LawTester& tester)
 	{
 		const auto flat = [&](const char* name, const vector<Vector3r>& path, auto leaves, const char* what) {
@@ -170,14 +181,16 @@ void checkEngines(const Scene& scene, const Engine& solver)
 		fail("the engine stands after NewtonIntegrator in O.engines: put it before the integrator");
 	checkIntegrator(*newton);
 	loops.require(
-	        "O.engines has no InteractionLoop, so no contact would be known: add NscdInteractionLoop(...) before ContactDynamicsEngine, see yade.nonsmooth.scene.engines");
+	        "O.engines has no InteractionLoop, so no contact would be known: add NscdInteractionLoop(...) before "
+	        "ContactDynamicsEngine, see yade.nonsmooth.scene.engines");
 	loops.requireBefore();
-	colliders.require(
-	        "O.engines has no collider, so no contact would be found: add PlanarGridCollider(...) before InteractionLoop, see yade.nonsmooth.scene.engines");
+	colliders.require("O.engines has no collider, so no contact would be found: add PlanarGridCollider(...) before "
+	                  "InteractionLoop, see yade.nonsmooth.scene.engines");
 	colliders.requireBefore();
 	if (between)
 		fail(named(*between) + " stands between ContactDynamicsEngine and " + named(*newton)
-		     + " in O.engines, where no reaction answers the forces and velocities that it changes: put it before ContactDynamicsEngine if it adds forces, after the integrator if it reads them");
+		     + " in O.engines, where no reaction answers the forces and velocities that it changes: put it before "
+		       "ContactDynamicsEngine if it adds forces, after the integrator if it reads them");
 	if (resetters.dead && !resetters.first) resetters.require("");
 	if (scene.forces.lastReset < scene.iter)
 		fail("O.forces were last reset in step " + std::to_string(scene.forces.lastReset)
@@ -186,7 +199,8 @@ void checkEngines(const Scene& scene, const Engine& solver)
 }
 
 namespace {
-	/// Engines that read forces where O.forces has none of this step: YADE's own refuse by a message that names nobody, or read zero.
+	/// Engines that read forces where O.forces has none of this step: YADE's own refuse by a message that names
+	/// nobody, or read zero.
 	void refuseReaders(const Scene& scene)
 	{
 		if (!hasSolver(scene)) return;
@@ -197,7 +211,8 @@ namespace {
 			reset = reset || dynamic_cast<const ForceResetter*>(engine.get());
 			if (reset && readsForces(*engine))
 				fail(named(*engine)
-				     + " reads forces and stands before ContactDynamicsEngine, where O.forces has no reaction of this step yet: put it after the integrator (engines(after=[...]))"
+				     + " reads forces and stands before ContactDynamicsEngine, where O.forces has no reaction of this step "
+				       "yet: put it after the integrator (engines(after=[...]))"
 				     + (dynamic_cast<const UniaxialStrainer*>(engine.get())
 				                ? ", with blockDisplacements=True and blockRotations=True"
 				                : ""));
@@ -249,7 +264,9 @@ void refuseEarly(const Scene& scene, const char* who)
 		if (dynamic_cast<const DomainLimiter*>(engine.get()))
 			throw std::runtime_error(
 			        string(who) + ": O.engines has a " + named(*engine)
-			        + ", which ends the process where it erases a body that Python has made: let a PyRunner at the end of the list erase it, as PyRunner(command='for b in [b for b in O.bodies if b.state.pos[1] < -3]: O.bodies.erase(b.id)', iterPeriod=20)");
+			        + ", which ends the process where it erases a body that Python has made: let a PyRunner at the end of "
+			          "the list erase it, as PyRunner(command='for b in [b for b in O.bodies if b.state.pos[1] < -3]: "
+			          "O.bodies.erase(b.id)', iterPeriod=20)");
 	}
 	if (const string why = halfConverted(scene); !why.empty()) throw std::runtime_error(string(who) + ": " + why);
 	refuseReaders(scene);

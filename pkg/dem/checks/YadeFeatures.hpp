@@ -3,7 +3,8 @@
 //     OPENMP           whether there are threads to ask for
 //     MPI              Collider::mayCollide also wants the subdomain of this process
 //     MASK_ARBITRARY   a group mask is a set of bits and not an int; Body::maskOk takes both
-// OpenGL, VTK, MPFR and the like add members and classes, which the macros of cmake/FindYADE.cmake lay out as YADE was built, and change no call of ours.
+// OpenGL, VTK, MPFR and the like add members and classes, which the macros of cmake/FindYADE.cmake lay out as YADE was
+// built, and change no call of ours.
 #pragma once
 
 #include <algorithm>
@@ -15,11 +16,13 @@
 
 namespace yade::nscd {
 
-/// Bodies that give a thread enough to do for waiting for the others at each loop's end: on an idle machine a second one begins to gain at 1,000 in all.
+/// Bodies that give a thread enough to do for waiting for the others at each loop's end: on an idle machine a second
+/// one begins to gain at 1,000 in all.
 constexpr size_t bodiesForAThread = 500;
 
-/// YADE's own number of threads, or what the engine's ompThreads allows of it; where that is not set, not more than a small scene has a use for: on a busy
-/// machine threads that wait for each other make its steps many times longer. Bits do not depend on it.
+/// YADE's own number of threads, or what the engine's ompThreads allows of it; where that is not set, not more than a
+/// small scene has a use for: on a busy machine threads that wait for each other make its steps many times longer. Bits
+/// do not depend on it.
 inline int threadsOf([[maybe_unused]] const Engine& engine)
 {
 #ifdef YADE_OPENMP

@@ -2,7 +2,8 @@
 //
 //     a(t)  linear between the times, zero before the first and after the last
 //     V(t) = ∫ a dt      D(t) = ∫ V dt
-// both exact for this a. After the record the ground keeps the velocity that it ended with: a record that was not corrected drifts, and this is not hidden.
+// both exact for this a. After the record the ground keeps the velocity that it ended with: a record that was not
+// corrected drifts, and this is not hidden.
 // Units: s, m/s², m/s, m.
 #pragma once
 
@@ -22,7 +23,8 @@ public:
 	Pair acceleration(double time) const;
 	Pair velocity(double time) const;
 	Pair displacement(double time) const;
-	/// Mean acceleration from one time to a later one: (V(end) − V(begin)) / (end − begin), summed up within this span alone, so that it is as exact late as early.
+	/// Mean acceleration from one time to a later one: (V(end) − V(begin)) / (end − begin), summed up within this
+	/// span alone, so that it is as exact late as early.
 	Pair mean(double begin, double end) const;
 
 private:

@@ -1,10 +1,12 @@
-// The elliptic zone in which a bond lives (Taboada and Estrada 2009, Figure 2b), for ductile bonds of YADE's soft models.
+// The elliptic zone in which a bond lives (Taboada and Estrada 2009, Figure 2b), for ductile bonds of YADE's soft
+// models.
 //
-// A bond of Law2_ScGeom6D_CohFrictPhys_CohesionMoment with fragile = false yields at its three thresholds and never breaks; so does a bond of
-// WallPhys. In the hard law it yields likewise, and breaks when the marked point leaves the zone
+// A bond of Law2_ScGeom6D_CohFrictPhys_CohesionMoment with fragile = false yields at its three thresholds and never
+// breaks; so does a bond of WallPhys. In the hard law it yields likewise, and breaks when the marked point leaves the
+// zone
 //     (d_n / ε_n ℓ)² + (d_t / ε_t ℓ)² < 1 .
-// This engine looks at all such bonds every iterPeriod steps and breaks those that have left. Deviations from the hard law: a break is up to
-// iterPeriod steps late, and the elastic part of a displacement counts.
+// This engine looks at all such bonds every iterPeriod steps and breaks those that have left. Deviations from the hard
+// law: a break is up to iterPeriod steps late, and the elastic part of a displacement counts.
 #pragma once
 
 #include <core/Interaction.hpp>

@@ -235,7 +235,8 @@ void ContactDynamicsEngine::dump(const std::string& path) const
 	const auto guard = nscd::Resident::of(*Omega::instance().getScene())->betweenTurns();
 	if (!problemIsWhole)
 		throw std::runtime_error(
-		        "ContactDynamicsEngine.dump: the last step was refused, and the problem of the one before is gone: mend what was refused, and call O.step() first");
+		        "ContactDynamicsEngine.dump: the last step was refused, and the problem of the one before is gone: "
+		        "mend what was refused, and call O.step() first");
 	if (wasInSpace) contact::space::write(path, { inSpace.problem, inSpace.warmStart, stepSolved });
 	else
 		contact::write(path, { seam.problem, seam.warmStart, stepSolved });

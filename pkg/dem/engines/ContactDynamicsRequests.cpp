@@ -9,13 +9,34 @@
 namespace yade {
 
 namespace {
-	/// Whether an interaction's bodies are still there, with their shapes: YADE's loop takes it out in the next step where they are not.
+	/// Whether an interaction's bodies are still there, with their shapes: YADE's loop takes it out in the next
+	/// step where they are not.
 	bool hasBodies(const Interaction& i, const Scene& scene)
 	{
 		const auto& bodies  = *scene.bodies;
 		const auto  isThere = [&](Body::id_t id) { return bodies.exists(id) && bodies[id]->shape; };
 		return isThere(i.getId1()) && isThere(i.getId2());
 	}
+}
+
+boost::python::dict ContactDynamicsEngine::contactForms()
+{
+	using namespace nonsmooth::contact;
+	boost::python::dict bytes;
+	const auto          tell = [&bytes](const char* form, size_t size) { bytes[form] = size; };
+	tell("order", sizeof(nscd::Resident::Place));
+	tell("state", sizeof(nscd::Reading));
+	tell("bond", sizeof(nscd::BondReading));
+	tell("strain", sizeof(nscd::BondStrain));
+	tell("link", sizeof(nscd::Link));
+	tell("contact", sizeof(Contact));
+	tell("impulse", sizeof(Impulse));
+	tell("pair", sizeof(MovablePair));
+	tell("lane", sizeof(std::int32_t));
+	tell("block", sizeof(Block<double>) / lanes);
+	tell("rounded block", sizeof(Block<float>) / lanes);
+	tell("error", sizeof(PositionError));
+	return bytes;
 }
 
 int ContactDynamicsEngine::bond()

@@ -1,4 +1,5 @@
-// What the engine warns of: changes that scripts make, overlaps, long ways, driven bodies, lost restitution, steps that were not solved.
+// What the engine warns of: changes that scripts make, overlaps, long ways, driven bodies, lost restitution, steps that
+// were not solved.
 #include "ContactDynamicsEngine.hpp"
 #include "../checks/Refusal.hpp"
 #include "../checks/Seldom.hpp"
@@ -59,7 +60,8 @@ void ContactDynamicsEngine::reportOverlap(const std::function<int(Real)>& pairsD
 	        << " deep in each other, the worst bodies #" << overlapWorstPair[0] << " and #" << overlapWorstPair[1]
 	        << ", by " << 100 * overlapWorst << " % of their mean diameter (" << overlappedSteps
 	        << " such steps so far). They were placed so, pressed by a wall that moves regardless of"
-	           " what it meets, or met faster than the collider knew of: look at how they were placed, lower O.dt or the wall's speed, or raise Law2's reach and the functors' factors."
+	           " what it meets, or met faster than the collider knew of: look at how they were placed, lower O.dt or "
+	           "the wall's speed, or raise Law2's reach and the functors' factors."
 	           " Where none of that is so, the solve leaves overlaps: lower tolerance (it is "
 	        << tolerance << "), or raise maxIterations where steps end above it (" << unconverged << " so far).");
 }
@@ -73,7 +75,8 @@ void ContactDynamicsEngine::reportWay()
 	        << scene->iter << ": body #" << far.body << ", a disk of radius " << far.radius << " m, moves at "
 	        << far.speed << " m/s, which is " << far.radii << " of its radii in a step of O.dt = " << scene->dt
 	        << " s (" << farSteps
-	        << " steps so far with a disk that moves by more than its radius). Such a disk may pass a thin wall or another disk between two steps, and what it meets is known"
+	        << " steps so far with a disk that moves by more than its radius). Such a disk may pass a thin wall or "
+	           "another disk between two steps, and what it meets is known"
 	           " too late. Set O.dt = "
 	        << nscd::about(nscd::enoughStep(scene->dt, far.radii))
 	        << " s or less, with which it moves by half its radius, unless nothing is in its way.");
@@ -91,7 +94,8 @@ void ContactDynamicsEngine::reportDriven()
 	           " along the normal (state.blockedDOFs) and press it by O.forces.setPermF.");
 }
 
-/// `settling`: twice what gravity gives bodies at rest in a step [J]; those that are placed a little above their places lose as much.
+/// `settling`: twice what gravity gives bodies at rest in a step [J]; those that are placed a little above their places
+/// lose as much.
 void ContactDynamicsEngine::reportRestitution(Real settling)
 {
 	if (seam.overrun() > 0 && nscd::seldom(++overrunSteps))
@@ -137,8 +141,8 @@ void ContactDynamicsEngine::report(const contact::SolverStatistics& statistics, 
 	const auto test   = contact::stoppingTestOf(stoppingTest.c_str());
 	const bool ours   = test == contact::StoppingTest::NaturalMap;
 	const Real figure = ours ? residual : statistics.changes.figure(test);
-	// A step in which bodies meet hard may miss the tolerance, and so do forces that are next to nothing: that is counted. What lasts, or outweighs a body, matters,
-	// and so does a body that keeps falling, however light.
+	// A step in which bodies meet hard may miss the tolerance, and so do forces that are next to nothing: that is
+	// counted. What lasts, or outweighs a body, matters, and so does a body that keeps falling, however light.
 	constexpr Real missed  = 10; // tolerances
 	constexpr int  lasts   = 10; // steps
 	constexpr Real falling = 0.3; // share of a contact's speed
@@ -201,7 +205,8 @@ string ContactDynamicsEngine::tellWorstPair()
 	}
 	if (heaviest > 0 && lightest > contact::massJump * heaviest)
 		text << "; among them and what they touch one body has " << lightest / heaviest
-		     << " times the mass of another, which asks for more sweeps (a larger maxIterations lets it solve larger patches of contacts, too) or for masses nearer to each other";
+		     << " times the mass of another, which asks for more sweeps (a larger maxIterations lets it solve larger "
+		        "patches of contacts, too) or for masses nearer to each other";
 	return text.str();
 }
 

@@ -1,4 +1,5 @@
-// Calls Python between two steps, at times that Python itself sets: what drives a course of stages in O.run(), in the viewer and in yade-batch.
+// Calls Python between two steps, at times that Python itself sets: what drives a course of stages in O.run(), in the
+// viewer and in yade-batch.
 #pragma once
 
 #include <core/GlobalEngine.hpp>

@@ -14,7 +14,8 @@ inline NewtonIntegrator* findNewton(const Scene& scene)
 	return nullptr;
 }
 
-/// That of the present step; while the ramp of the scene's ContactDynamicsEngine lasts the integrator gets it here, whoever asks first.
+/// That of the present step; while the ramp of the scene's ContactDynamicsEngine lasts the integrator gets it here,
+/// whoever asks first.
 Vector3r gravityOf(const Scene& scene);
 
 } // namespace yade::nscd

@@ -2,10 +2,11 @@
 //
 // In the frame of the ground, which walls are at rest in, each free body bears
 //     F = −m ā      ā = (V(t+h) − V(t)) / h
-// over the step of length h that begins at time t, V the ground's velocity: the record's mean over the step, so that the impulses of all steps sum up to the
-// record's integral, however long steps are. Seen from outside, the walls move: in each step with V(t+h), the velocity of its end, as contacts are solved with
-// velocities of the step's end. Both are the same motion in two frames, and the same step of Moreau and Jean.
-// The disks are rigid: no wave runs through the mass, and the ground moves as a whole.
+// over the step of length h that begins at time t, V the ground's velocity: the record's mean over the step, so that
+// the impulses of all steps sum up to the record's integral, however long steps are. Seen from outside, the walls move:
+// in each step with V(t+h), the velocity of its end, as contacts are solved with velocities of the step's end. Both are
+// the same motion in two frames, and the same step of Moreau and Jean. The disks are rigid: no wave runs through the
+// mass, and the ground moves as a whole.
 #pragma once
 
 #include "AccelerationRecord.hpp"

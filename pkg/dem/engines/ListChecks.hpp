@@ -15,7 +15,8 @@ inline void requireNumbers(const string& who, const char* name, const vector<Rea
 			        + ": give a finite number");
 }
 
-/// Throws std::invalid_argument for the first of the `times` that comes before the one in front of it or, where they rise `strictly`, not after it.
+/// Throws std::invalid_argument for the first of the `times` that comes before the one in front of it or, where they
+/// rise `strictly`, not after it.
 inline void requireRising(const string& who, const vector<Real>& times, bool strictly)
 {
 	for (size_t k = 1; k < times.size(); ++k)

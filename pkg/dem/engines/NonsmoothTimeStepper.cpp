@@ -47,7 +47,8 @@ void NonsmoothTimeStepper::action()
 		throw std::runtime_error(
 		        "NonsmoothTimeStepper: O.engines has no ContactDynamicsEngine: add one, or set O.dt yourself");
 
-	// a step that was refused, or that an exception ended, is made again; only O.resetTime() lets a number come again, and there the solver has been through
+	// a step that was refused, or that an exception ended, is made again; only O.resetTime() lets a number come
+	// again, and there the solver has been through
 	const bool again = chosenIter == scene->iter && chosenTime == scene->time
 	        && (scene->iter > 0 || solver->steps == chosenSteps);
 	if (!again || scene->dt != chosen) before = scene->dt;

@@ -1,12 +1,13 @@
 // The time step of rigid contacts: as large as accuracy allows, since nothing but accuracy limits it.
 //
-// Over a step the solver takes contacts as they lie at its beginning. With u the relative velocity of two bodies' centres (at a wall: its normal
-// component, as sliding along a straight wall changes nothing), ℓ their mean diameter, and d the displacement of a bond's mark in its ellipse,
+// Over a step the solver takes contacts as they lie at its beginning. With u the relative velocity of two bodies'
+// centres (at a wall: its normal component, as sliding along a straight wall changes nothing), ℓ their mean diameter,
+// and d the displacement of a bond's mark in its ellipse,
 //     h ≤ path ℓ / |u|                         for every contact: its normal turns by less than `path` in a step, its overlap by path²/2 ;
 //     h ≤ bondPath / max(|ḋ_n|/(ε_n ℓ), |ḋ_t|/(ε_t ℓ))   for every bond: it crosses its ellipse in 1/bondPath steps or more.
-// Both rates are those of the last step's end. A step grows by the factor `growth` at most, and not at all after one that the solver left unsolved
-// or that took more than `sweeps` sweeps; it shrinks at once. A step that is made again, since it was refused or an exception
-// ended it, begins with the same choice.
+// Both rates are those of the last step's end. A step grows by the factor `growth` at most, and not at all after one
+// that the solver left unsolved or that took more than `sweeps` sweeps; it shrinks at once. A step that is made again,
+// since it was refused or an exception ended it, begins with the same choice.
 #pragma once
 
 #include <core/GlobalEngine.hpp>

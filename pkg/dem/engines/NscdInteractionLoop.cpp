@@ -47,7 +47,8 @@ namespace {
 		return nullptr;
 	}
 
-	/// What a bond of two disks has slipped and turned; where it yielded so in the step before, it is at rest with that.
+	/// What a bond of two disks has slipped and turned; where it yielded so in the step before, it is at rest with
+	/// that.
 	void followStrain(
 	        Reading& r, bool swap, const nscd::BodyReading& p1, const nscd::BodyReading& p2,
 	        const plane::BondMarks& marks, plane::BondStrain& rest)
@@ -165,7 +166,8 @@ void NscdInteractionLoop::action()
 		                                                                            : Reading::Functors;
 	};
 	struct alignas(64) Part {
-		// contacts that go through their functors, that are forgotten, and that are to have an interaction: places in the order
+		// contacts that go through their functors, that are forgotten, and that are to have an interaction:
+		// places in the order
 		std::vector<int> others, gone, unmade;
 	};
 	std::vector<Part> parts(threads);
@@ -184,7 +186,8 @@ void NscdInteractionLoop::action()
 				fetch<sizeof(nscd::BondReading)>(&resident.bonds[ahead]);
 			}
 			Reading& r = resident.readings[slot];
-			// functors in use and the contact's own are what they were, or it was read anew; its bodies may have changed
+			// functors in use and the contact's own are what they were, or it was read anew; its bodies may
+			// have changed
 			const bool differ = !isOurs(bodies[r.first]) || !isOurs(bodies[r.second]);
 			if (!r.bare && (r.keeper == Reading::Unknown || differ)) r.keeper = keeperOf(r);
 			if (r.keeper == Reading::Functors) part.others.push_back(int(k));
@@ -215,7 +218,8 @@ void NscdInteractionLoop::action()
 	turn.end();
 }
 
-/// Brings a contact of two disks up to date, in the order of operations of Ig2_Sphere_Sphere_ScGeom and of the law's functor.
+/// Brings a contact of two disks up to date, in the order of operations of Ig2_Sphere_Sphere_ScGeom and of the law's
+/// functor.
 NscdInteractionLoop::Next NscdInteractionLoop::follow(nscd::Resident& resident, int slot, const Ours& ours) const
 {
 	Reading&    r    = resident.readings[slot];

@@ -1,8 +1,9 @@
 // YADE's interaction loop, faster for contacts of disks.
 //
-// Interactions, their geometry, their physics and the states of their bodies lie all over the memory, so the loop of 50,000 of them waits
-// for memory most of the time. This one keeps contacts of disks in arrays (seam/Resident.hpp), without the shear increments that soft laws need, which are zero; their
-// interactions follow when somebody looks. Everything else goes through the functors as ever. All other fields have the bits of YADE's loop.
+// Interactions, their geometry, their physics and the states of their bodies lie all over the memory, so the loop of
+// 50,000 of them waits for memory most of the time. This one keeps contacts of disks in arrays (seam/Resident.hpp),
+// without the shear increments that soft laws need, which are zero; their interactions follow when somebody looks.
+// Everything else goes through the functors as ever. All other fields have the bits of YADE's loop.
 #pragma once
 
 #include "../seam/Resident.hpp"
@@ -28,7 +29,8 @@ when somebody looks, see :yref:`ContactDynamicsEngine.advance`, and until then h
 boundaries, callbacks, sorted interactions or a LawTester it is the plain loop.)""");
 	// clang-format on
 private:
-	/// The functors that contacts, or disks out of their reach, may do without, each null where there is none; and the collider whose reach holds.
+	/// The functors that contacts, or disks out of their reach, may do without, each null where there is none; and
+	/// the collider whose reach holds.
 	struct Ours {
 		const Ig2_Sphere_Sphere_ScGeom*              spheres;
 		const Ig2_Segment_Sphere_ScGeom*             segments;
@@ -37,7 +39,8 @@ private:
 		const PlanarGridCollider*                    collider;
 	};
 	const PlanarGridCollider* colliderBefore() const;
-	/// What becomes of a contact in a step: it may be forgotten, or need an interaction first, which it does not have.
+	/// What becomes of a contact in a step: it may be forgotten, or need an interaction first, which it does not
+	/// have.
 	enum class Next { Stays, Gone, Unmade };
 
 	Next follow(nscd::Resident& resident, int slot, const Ours& ours) const;

@@ -1,4 +1,5 @@
-// Contacts that go through their functors, as in YADE's loop: those that the arrays do not keep, and all of them in space.
+// Contacts that go through their functors, as in YADE's loop: those that the arrays do not keep, and all of them in
+// space.
 #include "../walls/Arc.hpp"
 #include "../materials/Law2_ScGeom_NscdPhys_SignoriniCoulomb.hpp"
 #include "NscdInteractionLoop.hpp"
@@ -17,19 +18,22 @@ namespace yade {
 namespace {
 	using nscd::fetch, nscd::soon, nscd::later, nscd::Reading;
 
-	/// Makes what soft laws need of a contact of disks zero, so that a contact is the same whether it was made just now, some steps ago, or loaded.
+	/// Makes what soft laws need of a contact of disks zero, so that a contact is the same whether it was made just
+	/// now, some steps ago, or loaded.
 	void forgetShear(const shared_ptr<Interaction>& I, Scene& scene)
 	{
 		if (typeid(*I->geom) != typeid(ScGeom) || !nscd::physOf(*I->phys)) return;
 		auto& geom = static_cast<ScGeom&>(*I->geom);
-		// a new contact has no axes, which nothing else can be asked to write; its shear increment is made of the velocities
+		// a new contact has no axes, which nothing else can be asked to write; its shear increment is made of
+		// the velocities
 		geom.precompute(
 		        *Body::byId(I->getId1(), &scene)->state, *Body::byId(I->getId2(), &scene)->state, &scene, I,
 		        Vector3r(geom.normal), true, Vector3r::Zero());
 		geom.shearInc = Vector3r::Zero();
 	}
 
-	/// Of two bodies whose contact lacks a functor for what `a` and `b` have; `remedy`: which one, or what else would do.
+	/// Of two bodies whose contact lacks a functor for what `a` and `b` have; `remedy`: which one, or what else
+	/// would do.
 	[[noreturn]] void lacks(const Body& a, const Body& b, const string& functor, const string& remedy)
 	{
 		throw std::runtime_error(
@@ -55,7 +59,8 @@ namespace {
 		if (nscd::physOf(*I.phys))
 			lacks(a, b, functor, "add Law2_ScGeom_NscdPhys_SignoriniCoulomb() to the third list");
 		lacks(a, b, functor,
-		      "rigid contacts have an NscdPhys: give both bodies an NscdMat, and the loop Ip2_NscdMat_NscdMat_NscdPhys() and Law2_ScGeom_NscdPhys_SignoriniCoulomb()");
+		      "rigid contacts have an NscdPhys: give both bodies an NscdMat, and the loop "
+		      "Ip2_NscdMat_NscdMat_NscdPhys() and Law2_ScGeom_NscdPhys_SignoriniCoulomb()");
 	}
 
 	/// What functors will look at of a contact. Noted before the loop: in it other threads write readings.

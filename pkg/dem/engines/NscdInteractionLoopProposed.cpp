@@ -1,4 +1,5 @@
-// How pairs of disks that the collider proposes become contacts: into the arrays, with the numbers that their functors would give them, or by these functors.
+// How pairs of disks that the collider proposes become contacts: into the arrays, with the numbers that their functors
+// would give them, or by these functors.
 #include "../materials/Law2_ScGeom_NscdPhys_SignoriniCoulomb.hpp"
 #include "NscdInteractionLoop.hpp"
 #include "../seam/Prefetch.hpp"
@@ -14,8 +15,9 @@ namespace {
 	namespace plane = nonsmooth::contact::plane;
 }
 
-/// Pairs of disks that the collider has found, without interactions: those that come into contact are taken for bare ones where the arrays may keep them, and get an
-/// interaction, which goes through its functors, where they may not. The others stay.
+/// Pairs of disks that the collider has found, without interactions: those that come into contact are taken for bare
+/// ones where the arrays may keep them, and get an interaction, which goes through its functors, where they may not.
+/// The others stay.
 void NscdInteractionLoop::takeProposed(nscd::Resident& resident, const Ours& ours, int threads)
 {
 	auto& proposed = resident.proposed;

@@ -94,7 +94,8 @@ void PlanarGridCollider::validate() const
 		        + ": give a length [m], or a negative number of smallest radii");
 }
 
-/// Ends the contacts of bodies whose shape was replaced: they hold what was made for the old one. Returns whether there are any.
+/// Ends the contacts of bodies whose shape was replaced: they hold what was made for the old one. Returns whether there
+/// are any.
 bool PlanarGridCollider::renewShapes(bool turned)
 {
 	std::vector<Body::id_t> renewed;
@@ -166,7 +167,8 @@ void PlanarGridCollider::boundSides()
 	}
 }
 
-/// Erases all that is not real and trusts none of what was noted, so that every pair within reach is looked up in O.interactions.
+/// Erases all that is not real and trusts none of what was noted, so that every pair within reach is looked up in
+/// O.interactions.
 void PlanarGridCollider::forget()
 {
 	scene->interactions->conditionalyEraseNonReal(*this, scene);

@@ -1,18 +1,22 @@
 // YADE's collider for disks in the plane: a grid in the place of sorted bounds.
 //
-// Fast disks leave the boxes of a sorting collider after one or two steps, and every sort then goes through all boxes, all interactions, and all pairs whose
-// boxes have crossed. Here pairs that can meet before disks near each other have moved by a margin against each other are looked up in a grid, and from then
-// on only their distances are followed; O.interactions gets a pair when it comes within reach and loses it when it has left, so that it holds contacts and
-// no candidates. Which contacts there are is the same, to the last bit, as with a sorting collider and the same reach.
+// Fast disks leave the boxes of a sorting collider after one or two steps, and every sort then goes through all boxes,
+// all interactions, and all pairs whose boxes have crossed. Here pairs that can meet before disks near each other have
+// moved by a margin against each other are looked up in a grid, and from then on only their distances are followed;
+// O.interactions gets a pair when it comes within reach and loses it when it has left, so that it holds contacts and no
+// candidates. Which contacts there are is the same, to the last bit, as with a sorting collider and the same reach.
 //
-// The reach has to be what the fastest disks may go in a step, which most never do. With `sureReach` a pair beyond that has an interaction only while one of
-// the two is as fast against a disk near it as the gap asks for: for itself, and for the speed that it may be given within the step.
+// The reach has to be what the fastest disks may go in a step, which most never do. With `sureReach` a pair beyond that
+// has an interaction only while one of the two is as fast against a disk near it as the gap asks for: for itself, and
+// for the speed that it may be given within the step.
 //
-// When pairs are looked up anew. With c the factor of the sure reach, D_s the largest difference of velocities in square s and the eight around it (Regions), and
-// D'_s the largest D of these nine, the margin of disks in s is a_s = verletDist + h (ahead D_s + foresight D'_s), and pairs are
-// noted whose distance is below c (r_i + r_j) + min(a_s(i), a_s(j)). With S_s the largest difference of paths since then, a pair that was not noted is now at least
-// c (r_i + r_j) + a_s - S_s apart, and it is not wanted before that is less than c (r_i + r_j) + foresight h D'_s, with today's h and D': so the list holds while
-// S_s + foresight h D'_s <= a_s in all squares. Squares are wide enough that disks which meet have been in neighbouring ones until a disk has gone `farPath`.
+// When pairs are looked up anew. With c the factor of the sure reach, D_s the largest difference of velocities in
+// square s and the eight around it (Regions), and D'_s the largest D of these nine, the margin of disks in s is a_s =
+// verletDist + h (ahead D_s + foresight D'_s), and pairs are noted whose distance is below c (r_i + r_j) + min(a_s(i),
+// a_s(j)). With S_s the largest difference of paths since then, a pair that was not noted is now at least c (r_i + r_j)
+// + a_s - S_s apart, and it is not wanted before that is less than c (r_i + r_j) + foresight h D'_s, with today's h and
+// D': so the list holds while S_s + foresight h D'_s <= a_s in all squares. Squares are wide enough that disks which
+// meet have been in neighbouring ones until a disk has gone `farPath`.
 #pragma once
 
 #include <neighbours/disk_grid.hpp>
@@ -47,14 +51,20 @@ R"""(Collider for disks (:yref:`spheres<Sphere>` in the x-y plane) of any sizes,
 in sums of radii, within which two disks have an interaction: give it the value of :yref:`Ig2_Sphere_Sphere_ScGeom.interactionDetectionFactor`. A pair of disks is in
 O.interactions while it is within that reach, or as long as its contact lives (behind :yref:`NscdInteractionLoop` from the first look on); potential interactions exist only with bodies that are no spheres, near their
 bounding boxes. Disks get no :yref:`Body.bound`. Pairs of bodies that are no spheres are not looked for. Periodic scenes are refused.)""",
-		((Real,verletDist,-0.7,,"Margin [m] by which pairs are looked up beyond their reach and what they may go in a few steps; negative: in smallest radii. It changes the speed alone: more pairs to follow against fewer searches."))
-		((Real,sureReach,std::numeric_limits<Real>::max(),,"Gap [ℓ] up to which disks always have an interaction; beyond it, within the reach, only while one of them is so fast against a disk near it that it may come as near in two steps. Not below bondCreationDistance and :yref:`ContactDynamicsEngine.openGap`. By default all within the reach have one."))
+		((Real,verletDist,-0.7,,"Margin [m] by which pairs are looked up beyond their reach and what they may go in a few steps; "
+		        "negative: in smallest radii. It changes the speed alone: more pairs to follow against fewer "
+		        "searches."))
+		((Real,sureReach,std::numeric_limits<Real>::max(),,"Gap [ℓ] up to which disks always have an interaction; beyond it, within the reach, only while one of "
+		        "them is so fast against a disk near it that it may come as near in two steps. Not below "
+		        "bondCreationDistance and :yref:`ContactDynamicsEngine.openGap`. By default all within the reach have "
+		        "one."))
 		((long,searches,0,(Attr::readonly|Attr::noSave),"Number of searches so far."))
 		((int,candidates,0,(Attr::readonly|Attr::noSave),"Pairs whose distance is followed."))
 	);
 	// clang-format on
 private:
-	/// How far, in radii, a box reaches around a disk that it can touch: Ig2 functors know contacts with a wall up to (factor − 1) times the diameter.
+	/// How far, in radii, a box reaches around a disk that it can touch: Ig2 functors know contacts with a wall up
+	/// to (factor − 1) times the diameter.
 	static Real reachAround(Real factor) { return 2 * factor - 1; }
 	using Box = nonsmooth::neighbours::Box;
 	/// A body that is no sphere, and where its box was when pairs were looked up.

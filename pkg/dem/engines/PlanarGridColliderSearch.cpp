@@ -37,7 +37,8 @@ bool PlanarGridCollider::moved()
 #pragma omp parallel for schedule(static) num_threads(threads) reduction(|| : other)
 	for (long id = 0; id < size; ++id) {
 		paths[id] = { disks[id].x - reference[id].x, disks[id].y - reference[id].y };
-		// one that had no place when the lists were made, as one that was no number, and has one now has come from farther than any bound
+		// one that had no place when the lists were made, as one that was no number, and has one now has come
+		// from farther than any bound
 		other = other || disks[id].r != reference[id].r
 		        || (isThere(disks[id])
 		            && !(std::abs(paths[id].x) <= farPath && std::abs(paths[id].y) <= farPath));
@@ -113,7 +114,8 @@ void PlanarGridCollider::searchSides()
 	resident->forgetErased(*scene->interactions);
 }
 
-/// Finds the pairs of disks within reach that are wanted and that O.interactions has not; and, where that decides it, how fast each disk is against those near it.
+/// Finds the pairs of disks within reach that are wanted and that O.interactions has not; and, where that decides it,
+/// how fast each disk is against those near it.
 void PlanarGridCollider::findNear()
 {
 	const long size    = (long)disks.size();

@@ -17,7 +17,8 @@ namespace {
 	        plane::blockedX == State::DOF_X && plane::blockedY == State::DOF_Y
 	        && plane::blockedTurn == State::DOF_RZ && plane::blockedAll == State::DOF_ALL);
 
-	/// Velocity and place at the end of a step, as NewtonIntegrator without damping has them, of a body that moves in space.
+	/// Velocity and place at the end of a step, as NewtonIntegrator without damping has them, of a body that moves
+	/// in space.
 	void integrate(State& s, const Vector3r& force, const Vector3r& torque, const Vector3r& gravity, Real dt)
 	{
 		if (s.blockedDOFs != State::DOF_ALL) {

@@ -2,11 +2,15 @@
 //
 // The plate moves along one direction d by Newton's law, contacts and load together in each step:
 //     m dv/dt = F + σ w (n·d) − c v + contacts ,
-// with F a force, σ a stress on the plate's width w, n the plate's normal, c a damping. So the load is borne exactly at rest and nothing swings, as it does where the plate's velocity is set
-// from the force of the step before. The damping is c v/(1 + c h/m), of the speed at the step's beginning: stable for any c, and nothing at rest; a free plate comes to F/c + h F/m.
-// The width follows the plate or the walls between which it stands: with p a point of the plate, a its direction, q and b those of a wall, the wall's line meets the
+// with F a force, σ a stress on the plate's width w, n the plate's normal, c a damping. So the load is borne exactly at
+// rest and nothing swings, as it does where the plate's velocity is set
+// from the force of the step before. The damping is c v/(1 + c h/m), of the speed at the step's beginning: stable for
+// any c, and nothing at rest; a free plate comes to F/c + h F/m.
+// The width follows the plate or the walls between which it stands: with p a point of the plate, a its direction, q and
+// b those of a wall, the wall's line meets the
 // plate's at s = (q − p) × b / (a × b), and w = |s₂ − s₁|, but no more than the plate's length.
-// Along an axis YADE's blockedDOFs hold the plate in its way. At other angles a guide does: a contact without friction, which also pulls, between the plate and a rail that stays where it is;
+// Along an axis YADE's blockedDOFs hold the plate in its way. At other angles a guide does: a contact without friction,
+// which also pulls, between the plate and a rail that stays where it is;
 // with soft contacts the engine takes the force across the way off. Forces are per metre of thickness.
 #pragma once
 
@@ -29,7 +33,9 @@ Place it after :yref:`ForceResetter` and before :yref:`ContactDynamicsEngine`, i
 		((Body::id_t,id,-1,,"The plate."))
 		((Vector3r,direction,Vector3r(0,-1,0),,"Unit vector in the x-y plane along which the load pushes and the plate is free."))
 		((Real,force,0,,"Force along it [N]."))
-		((Real,stress,0,,"Normal stress on the plate [Pa], positive towards its side of :yref:`direction<PlateLoadEngine.direction>`; its part along the direction acts, on the present width."))
+		((Real,stress,0,,"Normal stress on the plate [Pa], positive towards its side of "
+		        ":yref:`direction<PlateLoadEngine.direction>`; its part along the direction acts, on the present "
+		        "width."))
 		((vector<int>,between,,,"Two bodies between which the plate is loaded, as the side walls of a box; none: the plate's own length is its width."))
 		((Real,damping,0,,"Force against the plate's velocity [N s/m]."))
 		((bool,weightless,true,,"The plate's weight is taken off, so that it presses with the load alone; its mass says how it moves."))

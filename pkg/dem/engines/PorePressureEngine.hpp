@@ -1,14 +1,18 @@
 // Pore pressure as a body force under a water table parallel to a plane.
 //
 // Taboada and Estrada (2009), section 3.4 and eqs (7), (18):  F_p = -∇p V on every disk whose centre is below the table, V = π r² per
-// metre of thickness. Water that flows along a plane of dip β has -∇p = γ_w cos β along its normal: buoyancy γ_w V upwards and seepage
+// metre of thickness. Water that flows along a plane of dip β has -∇p = γ_w cos β along its normal: buoyancy γ_w V
+// upwards and seepage
 // γ_w V sin β down the plane (Figure 4). The paper writes F_p = ∇p V, with ∇p for the size of the fall of pressure.
-// Section 5.4: the force ends for good once a disk has moved downslope by more than D_c. Released are those disks that it acted on before, as the paper's criterion
-// is for particles below the water table; a disk that moves so far while it is dry stays dry, wherever the table rises to.
-// Deviation: none by default. V is the disk's own volume (its sum is the packing fraction times γ_w h cos β per unit length);
-// volumeFactor = 1/(packing fraction) gives each disk its share of the pores as well.
-// Deviation: releasedShare takes a share of the force from a disk, as local dilatancy does (section 5.4, paragraph 113); who sets it says how much, and when.
-// With a field the pressure is that of any flow: −∇p of the triangle that a disk's centre is in, where p > 0 there.
+// Section 5.4: the force ends for good once a disk has moved downslope by more than D_c. Released are those disks that
+// it acted on before, as the paper's criterion
+// is for particles below the water table; a disk that moves so far while it is dry stays dry, wherever the table rises
+// to.
+// Deviation: none by default. V is the disk's own volume (its sum is the packing fraction times γ_w h cos β per unit
+// length); volumeFactor = 1/(packing fraction) gives each disk its share of the pores as well.
+// Deviation: releasedShare takes a share of the force from a disk, as local dilatancy does (section 5.4, paragraph
+// 113); who sets it says how much, and when. With a field the pressure is that of any flow: −∇p of the triangle that a
+// disk's centre is in, where p > 0 there.
 #pragma once
 
 #include "PorePressureField.hpp"
@@ -58,16 +62,21 @@ Place it after :yref:`ForceResetter` and before :yref:`ContactDynamicsEngine`.)"
 		((Vector3r,planeNormal,Vector3r(0,1,0),,"Normal of the plane, pointing up into the slope."))
 		((vector<Real>,times,,,"Times [s] of the table of water heights, rising; between them the height is linear, outside them constant."))
 		((vector<Real>,heights,,,"Heights [m] of the water table above the plane at these times; none: dry."))
-		((Vector3r,pressureGradient,Vector3r::Zero(),,"Gradient ∇p of the pore pressure [N/m³], which grows downwards; the force is −∇p V. Zero: that of water which flows along the plane, −γ_w cos β along planeNormal (eq. 18)."))
-		((shared_ptr<PorePressureField>,field,,,"Pore pressure of any flow, instead of the table above a plane: times, heights, unitWeight and pressureGradient are not asked then, and planeNormal is upright to the way downslope."))
+		((Vector3r,pressureGradient,Vector3r::Zero(),,"Gradient ∇p of the pore pressure [N/m³], which grows downwards; the force is −∇p V. Zero: that of "
+		        "water which flows along the plane, −γ_w cos β along planeNormal (eq. 18)."))
+		((shared_ptr<PorePressureField>,field,,,"Pore pressure of any flow, instead of the table above a plane: times, heights, unitWeight and "
+		        "pressureGradient are not asked then, and planeNormal is upright to the way downslope."))
 		((Real,releaseDistance,5,,"Distance D_c [m] downslope after which water no longer acts on a body; infinite: it always does."))
-		((vector<Real>,releasedShare,,,"Share of the pore pressure, 0 to 1, that has been released, by id; water acts on a body with the rest, and of one with 1 no longer. Bodies beyond its end: 0. A body whose id another one had is met with 0."))
+		((vector<Real>,releasedShare,,,"Share of the pore pressure, 0 to 1, that has been released, by id; water acts on a body with the "
+		        "rest, and of one with 1 no longer. Bodies beyond its end: 0. A body whose id another one had is met "
+		        "with 0."))
 		((Real,volumeFactor,1,,"Volume on which the pressure gradient acts, in units of the body's own."))
 		((Real,thickness,1,,"Thickness [m] of the two-dimensional model."))
 		((int,mask,0,,"Only bodies whose groupMask shares a bit with this; 0: all spheres."))
 		((Real,height,0,(Attr::readonly|Attr::noSave),"Present height of the water table [m]; 0 with a field."))
 		((int,wetCount,0,(Attr::readonly|Attr::noSave),"Bodies that water acts on."))
-		((int,releasedCount,0,(Attr::readonly|Attr::noSave),"Bodies released so far: that were wet and have moved further than releaseDistance, or whose releasedShare is 1."))
+		((int,releasedCount,0,(Attr::readonly|Attr::noSave),"Bodies released so far: that were wet and have moved further than releaseDistance, or whose "
+		        "releasedShare is 1."))
 		((Vector3r,totalForce,Vector3r::Zero(),(Attr::readonly|Attr::noSave),"Sum of the forces of the last step [N]."))
 		((vector<int>,moved,,(Attr::readonly|Attr::hidden),"1 for bodies that have moved further than releaseDistance, by id: water acts on them no longer."))
 		((vector<int>,everWet,,(Attr::readonly|Attr::hidden),"1 for bodies that water has acted on, by id."))
@@ -78,10 +87,13 @@ Place it after :yref:`ForceResetter` and before :yref:`ContactDynamicsEngine`.)"
 		.def("heightAt",&PorePressureEngine::heightAt,(boost::python::arg("time")),"Height of the water table [m] at a time [s].")
 		.def("isWet",&PorePressureEngine::isWet,(boost::python::arg("id")),"Does water act on this body?")
 		.def("wasWet",&PorePressureEngine::wasWet,(boost::python::arg("id")),"Has water acted on this body since :yref:`forgetReleases<PorePressureEngine.forgetReleases>`?")
-		.def("isReleased",&PorePressureEngine::isReleased,(boost::python::arg("id")),"Was this body wet, and does water act on it no longer, by its way or by its :yref:`releasedShare<PorePressureEngine.releasedShare>`?")
+		.def("isReleased",&PorePressureEngine::isReleased,(boost::python::arg("id")),"Was this body wet, and does water act on it no longer, by its way or by its "
+		        ":yref:`releasedShare<PorePressureEngine.releasedShare>`?")
 		.def("bodyTable",&PorePressureEngine::bodyTable,"Three bytes a body, by id: isWet, isReleased, wasWet; see nonsmooth.tables.water.")
-		.add_property("gradient",&PorePressureEngine::minusPressureGradient,&PorePressureEngine::setGradient,"|ydeprecated| −∇p [N/m³], the force per volume: the old name of :yref:`pressureGradient<PorePressureEngine.pressureGradient>`, which has the other sign.")
-		.def("forgetReleases",&PorePressureEngine::forgetReleases,"Count ways downslope from the present positions again, and forget which bodies were wet and what share was released.")
+		.add_property("gradient",&PorePressureEngine::minusPressureGradient,&PorePressureEngine::setGradient,"|ydeprecated| −∇p [N/m³], the force per volume: the old name of "
+		        ":yref:`pressureGradient<PorePressureEngine.pressureGradient>`, which has the other sign.")
+		.def("forgetReleases",&PorePressureEngine::forgetReleases,"Count ways downslope from the present positions again, and forget which bodies were wet and what "
+		        "share was released.")
 	);
 	// clang-format on
 	DECLARE_LOGGER;

@@ -1,8 +1,9 @@
 // Pore pressure of any flow of water: at the nodes of triangles, at given times.
 //
 //     p(x, t) = Σ N_i(x) p_i(t)     f = −∇p per volume, constant on each triangle     wet where p > 0
-// p is that of water at rest or seeping; above the phreatic surface it is negative (suction), where no force acts, and goes on linearly through
-// the triangles that the surface crosses. Before the first time it is the first state's, after the last the last one's. Outside of the triangles all is dry.
+// p is that of water at rest or seeping; above the phreatic surface it is negative (suction), where no force acts, and
+// goes on linearly through the triangles that the surface crosses. Before the first time it is the first state's, after
+// the last the last one's. Outside of the triangles all is dry.
 #pragma once
 
 #include "TriangleField.hpp"
@@ -20,7 +21,8 @@ public:
 	};
 	/// A list was set, or all of them were loaded.
 	void postLoad(PorePressureField&) { isMade = false; }
-	/// Makes ready what `at` asks: nodal pressures of a time [s]. Throws std::invalid_argument, naming it, for what cannot be.
+	/// Makes ready what `at` asks: nodal pressures of a time [s]. Throws std::invalid_argument, naming it, for what
+	/// cannot be.
 	void  prepare(Real time);
 	Water at(const Vector3r& place) const;
 

@@ -1,8 +1,9 @@
 // A scalar field that is linear on each of some triangles, in time linear between given states.
 //
 //     p(x, t) = Σ N_i(x) p_i(t)      ∇p constant on each triangle
-// N_i the linear shape functions. Points are found by a grid of cells, each of which knows the triangles that meet it. A point on an edge
-// belongs to the triangle that comes first in the list, so that who finds it does not depend on the order of questions.
+// N_i the linear shape functions. Points are found by a grid of cells, each of which knows the triangles that meet it.
+// A point on an edge belongs to the triangle that comes first in the list, so that who finds it does not depend on the
+// order of questions.
 #pragma once
 
 #include <array>

@@ -1,5 +1,6 @@
-// The elliptic zone of a bond (Figure 2b of Taboada and Estrada 2009), from positions and rotations of two bodies in space: walls may stand in any way.
-// The equations, and the same for bodies in the plane, are in contact/plane/bond.hpp.
+// The elliptic zone of a bond (Figure 2b of Taboada and Estrada 2009), from positions and rotations of two bodies in
+// space: walls may stand in any way. The equations, and the same for bodies in the plane, are in
+// contact/plane/bond.hpp.
 #pragma once
 
 #include "NscdPhys.hpp"
@@ -16,7 +17,8 @@ struct BondPair {
 
 BondPair bondPair(const Body& b1, const Body& b2);
 
-/// Marks the points of a bond on its bodies; `Marks` has anchor1, anchor2 and axis as NscdPhys has. `normal` points from the first body to the second.
+/// Marks the points of a bond on its bodies; `Marks` has anchor1, anchor2 and axis as NscdPhys has. `normal` points
+/// from the first body to the second.
 template <class Marks>
 void markPoints(Marks& marks, const State& first, const State& second, const Vector3r& normal, Real secondRadius)
 {
@@ -26,7 +28,8 @@ void markPoints(Marks& marks, const State& first, const State& second, const Vec
 	marks.axis           = first.ori.conjugate() * normal;
 }
 
-/// Marks the bond's points at its creation. `normal` points from the first body to the second, `gap` [m] may be negative.
+/// Marks the bond's points at its creation. `normal` points from the first body to the second, `gap` [m] may be
+/// negative.
 void markBond(NscdPhys& phys, const BondPair& pair, const Vector3r& normal, Real gap);
 
 /// Of the marked point, in the ellipse's axes; `Place`: a State, or anything else with `pos` and `ori`.
@@ -39,7 +42,8 @@ bondDisplacement(const Marks& marks, const Place& first, const Place& second)
 	return { d.dot(n), n[0] * d[1] - n[1] * d[0] };
 }
 
-/// What the bodies of a bond have slipped on and turned against each other since it was made; `normal` now, from the first to the second, and the gap [m].
+/// What the bodies of a bond have slipped on and turned against each other since it was made; `normal` now, from the
+/// first to the second, and the gap [m].
 nonsmooth::contact::plane::BondStrain
 bondStrain(const NscdPhys& phys, const BondPair& pair, const Vector3r& normal, Real gap);
 

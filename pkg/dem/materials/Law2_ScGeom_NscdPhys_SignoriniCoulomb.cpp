@@ -12,7 +12,8 @@ namespace yade {
 YADE_PLUGIN((Law2_ScGeom_NscdPhys_SignoriniCoulomb));
 CREATE_LOGGER(Law2_ScGeom_NscdPhys_SignoriniCoulomb);
 
-/// Behind YADE's own loop, whose threads no exception may leave, a missing solver can only be told of; NscdInteractionLoop refuses it.
+/// Behind YADE's own loop, whose threads no exception may leave, a missing solver can only be told of;
+/// NscdInteractionLoop refuses it.
 void Law2_ScGeom_NscdPhys_SignoriniCoulomb::expectSolver()
 {
 	if (looked == scene->iter || looked.exchange(scene->iter) == scene->iter || nscd::hasSolver(*scene)) return;

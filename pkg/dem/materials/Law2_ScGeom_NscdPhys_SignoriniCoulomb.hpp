@@ -1,10 +1,13 @@
-// The part of the nonsmooth cohesive law that belongs to one contact: does it exist, does its bond live, what are its thresholds.
+// The part of the nonsmooth cohesive law that belongs to one contact: does it exist, does its bond live, what are its
+// thresholds.
 //
-// Bond (Taboada and Estrada 2009, section 2.2.2, Figure 2b; equations in contact/plane/bond.hpp): it lives in an ellipse fixed to the first of its
-// bodies and is lost for good when it leaves; peak strengths hold until then, residual ones from then on (contact/plane/thresholds.hpp).
-// Deviation: none. Choices where the paper is silent: a bond that has opened in tension keeps its new length under compression (eq. 1 knows
-// no gap); a contact that is not bonded has the residual adhesion while its gap is below adhesionRange; the first body is the wall, or that of lower id.
-// The reactions themselves are found by ContactDynamicsEngine for all contacts at once.
+// Bond (Taboada and Estrada 2009, section 2.2.2, Figure 2b; equations in contact/plane/bond.hpp): it lives in an
+// ellipse fixed to the first of its bodies and is lost for good when it leaves; peak strengths hold until then,
+// residual ones from then on (contact/plane/thresholds.hpp).
+// Deviation: none. Choices where the paper is silent: a bond that has opened in tension keeps its new length under
+// compression (eq. 1 knows no gap); a contact that is not bonded has the residual adhesion while its gap is below
+// adhesionRange; the first body is the wall, or that of lower id. The reactions themselves are found by
+// ContactDynamicsEngine for all contacts at once.
 #pragma once
 
 #include "BondEllipse.hpp"
@@ -30,7 +33,8 @@ public:
 		phys.brokenStep = scene->iter;
 		phys.breaks     = true;
 	}
-	/// Whether a contact with that gap is kept; one whose bond broke in this step stays for the step, to be counted.
+	/// Whether a contact with that gap is kept; one whose bond broke in this step stays for the step, to be
+	/// counted.
 	bool keeps(const NscdPhys& phys, Real gap) const
 	{
 		return phys.bonded || phys.breaks || isWithinReach(gap, phys.length);
@@ -41,7 +45,8 @@ public:
 R"""(Nonsmooth cohesive contact of rigid bodies: Signorini's condition with a tensile threshold, Coulomb friction and rolling friction, all
 three with a threshold proportional to :math:`F_a+N` (Taboada and Estrada 2009, eqs 1 to 6). This functor follows the bonds and sets the thresholds;
 :yref:`ContactDynamicsEngine` finds the reactions.)""",
-		((Real,reach,0.05,,"A contact without a bond is forgotten when its gap exceeds this distance [ℓ]; keep it at the functors' interactionDetectionFactor − 1, and above the path of a step at the greatest speed."))
+		((Real,reach,0.05,,"A contact without a bond is forgotten when its gap exceeds this distance [ℓ]; keep it at the "
+		        "functors' interactionDetectionFactor − 1, and above the path of a step at the greatest speed."))
 		((Real,adhesionRange,1e-3,,"Gap [ℓ] up to which a contact without a bond counts as touching for the residual tensile strength."))
 	);
 	// clang-format on

@@ -1,14 +1,16 @@
-// Soft contact of a disk with a wall whose strength may fall as disks slip: the walls of Taboada and Estrada (2009), sections 3.3 and 5.3,
-// for YADE's soft models.
+// Soft contact of a disk with a wall whose strength may fall as disks slip: the walls of Taboada and Estrada (2009),
+// sections 3.3 and 5.3, for YADE's soft models.
 //
-// With δ the penetration, N = k_n (δ − δ₀), T the spring along the wall, M that about z (thresholds as eqs 2, 4 and 6, F_a = 0 without a bond):
+// With δ the penetration, N = k_n (δ − δ₀), T the spring along the wall, M that about z (thresholds as eqs 2, 4 and 6,
+// F_a = 0 without a bond):
 //     −N ≤ F_a ,   |T| ≤ μ_s (F_a + N) ,   |M| ≤ μ_r ℓ (F_a + N) .
-// A fragile bond that reaches a threshold breaks for good, a ductile one yields until it has left its ellipse (BondEllipseEngine), both as in
-// Law2_ScGeom6D_CohFrictPhys_CohesionMoment; residual μ_s and μ_r hold from then on.
-// Slip is what the friction spring yields by: a contact that sticks does not slip, as in the hard law. It is summed for each disk in
-// the wall's SlipWeakeningMat, and F_a and μ_s fall with it as in SlipWeakeningPhys.
-// Sign: N > 0 presses; the normal points from the wall to the disk. Deviations from the hard law: springs; no residual tensile
-// strength; a disk that passes a joint of two segments begins with relaxed springs on the next one, and a bond there stays with its segment.
+// A fragile bond that reaches a threshold breaks for good, a ductile one yields until it has left its ellipse
+// (BondEllipseEngine), both as in Law2_ScGeom6D_CohFrictPhys_CohesionMoment; residual μ_s and μ_r hold from then on.
+// Slip is what the friction spring yields by: a contact that sticks does not slip, as in the hard law. It is summed for
+// each disk in the wall's SlipWeakeningMat, and F_a and μ_s fall with it as in SlipWeakeningPhys.
+// Sign: N > 0 presses; the normal points from the wall to the disk. Deviations from the hard law: springs; no residual
+// tensile strength; a disk that passes a joint of two segments begins with relaxed springs on the next one, and a bond
+// there stays with its segment.
 #pragma once
 
 #include "../walls/Segment.hpp"

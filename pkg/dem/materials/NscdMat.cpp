@@ -121,7 +121,8 @@ void SlipWeakeningMat::takeLaw()
 
 Real SlipWeakeningMat::remaining(Body::id_t id) const
 {
-	// called by InteractionLoop's threads, which no exception may leave; refused where it was set, and by ContactDynamicsEngine
+	// called by InteractionLoop's threads, which no exception may leave; refused where it was set, and by
+	// ContactDynamicsEngine
 	return law ? law->left(slipOf(id)) : 1;
 }
 

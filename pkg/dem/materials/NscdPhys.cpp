@@ -49,7 +49,8 @@ std::pair<const char*, Real> NscdPhys::senseless() const
 
 void NscdPhys::hearFriction()
 {
-	// NaN too, which is refused in its place, but not once more where it is in force already: a script may have mended the strengths since
+	// NaN too, which is refused in its place, but not once more where it is in force already: a script may have
+	// mended the strengths since
 	if (isFrictionWritten()) friction = residualFriction = tangensOfFrictionAngle;
 }
 
@@ -132,7 +133,8 @@ namespace {
 	}
 }
 
-/// Behind YADE's own loop, whose threads no exception may leave, a law of springs can only be told of; engines of ours refuse it.
+/// Behind YADE's own loop, whose threads no exception may leave, a law of springs can only be told of; engines of ours
+/// refuse it.
 void Ip2_NscdMat_NscdMat_NscdPhys::expectLaw()
 {
 	if (looked == scene->iter || looked.exchange(scene->iter) == scene->iter) return;
@@ -147,7 +149,8 @@ void Ip2_NscdMat_NscdMat_NscdPhys::go(
 	expectLaw();
 	const Body &b1 = *Body::byId(interaction->getId1(), scene), &b2 = *Body::byId(interaction->getId2(), scene);
 	if (!makesSense(m1.get()) || !makesSense(m2.get())) {
-		// no exception may leave the threads of YADE's loop: ContactDynamicsEngine meets these numbers in the same step, and says why they are none
+		// no exception may leave the threads of YADE's loop: ContactDynamicsEngine meets these numbers in the
+		// same step, and says why they are none
 		const auto spoilt = boost::make_shared<NscdPhys>();
 		spoilt->length    = nscd::meanDiameter(b1, b2);
 		for (Real* value : { &spoilt->friction, &spoilt->residualFriction, &spoilt->restitution })

@@ -39,7 +39,8 @@ public:
 	/// Notes what it did in a step, where it countsSlip.
 	virtual void noteSliding(const nscd::Sliding&) { }
 	virtual bool countsSlip() const { return false; }
-	/// A script has set an attribute; nscd::Resident takes it up. C++ that changes one where no engine has its turn sets this too.
+	/// A script has set an attribute; nscd::Resident takes it up. C++ that changes one where no engine has its turn
+	/// sets this too.
 	void postLoad(NscdPhys&)
 	{
 		touched = true;
@@ -49,7 +50,8 @@ public:
 	bool isBondWanted() const { return bonded && axis == Vector3r::Zero(); }
 	/// An attribute whose number makes no sense in the law, and the number; null where all do.
 	virtual std::pair<const char*, Real> senseless() const;
-	/// Whether there is none as far as a glance at their sum and the least of them tells, which is enough for almost all contacts.
+	/// Whether there is none as far as a glance at their sum and the least of them tells, which is enough for
+	/// almost all contacts.
 	bool makesSenseAtOnce() const
 	{
 		const Real least = std::min({ residualTensileForce, residualFriction, residualRollingArm, tensileForce,
@@ -60,9 +62,11 @@ public:
 		return least >= 0 && restitution <= 1 && nscd::isNumber(sum)
 		        && (!bonded || (ellipseNormal > 0 && ellipseTangential > 0));
 	}
-	/// Whether somebody has written into an attribute of FrictPhys since it was last set here: those of YADE's own classes leave no mark.
+	/// Whether somebody has written into an attribute of FrictPhys since it was last set here: those of YADE's own
+	/// classes leave no mark.
 	bool isWritten() const { return isFrictionWritten() || isReset() || unheard(); }
-	/// The attribute of YADE's own classes that was written to and that a rigid contact cannot hear; null where there is none.
+	/// The attribute of YADE's own classes that was written to and that a rigid contact cannot hear; null where
+	/// there is none.
 	const char* unheard() const;
 	/// Whether somebody has set the forces of a step to zero.
 	bool isReset() const
@@ -110,8 +114,11 @@ the solver finds them, and so are stiffnesses ``kn`` and ``ks``, which rigid con
 		((Real,restitution,0,Attr::triggerPostLoad,"Coefficient of restitution."))
 		((Real,correction,0,(Attr::readonly|Attr::hidden),"Pseudo-impulse of the last correction of positions [kg m], from which the next one starts."))
 		((long,brokenStep,-1,Attr::readonly,"Step at which the bond broke; -1: none did since the last one was made."))
-		((int,brokenMode,None,Attr::readonly,"How the bond broke: 0 not broken, 1 tension, 2 shear, 3 torque (in space rolling), 4 mixed, 5 twisting (in space)."))
-		((bool,bonded,false,Attr::triggerPostLoad,"A bond holds. Set to True by a script where none does, it is made in the next step, as :yref:`ContactDynamicsEngine.bond` makes it, whatever the gap; set to False it ends, and does not count as broken."))
+		((int,brokenMode,None,Attr::readonly,"How the bond broke: 0 not broken, 1 tension, 2 shear, 3 torque (in space rolling), 4 mixed, 5 "
+		        "twisting (in space)."))
+		((bool,bonded,false,Attr::triggerPostLoad,"A bond holds. Set to True by a script where none does, it is made in the next step, as "
+		        ":yref:`ContactDynamicsEngine.bond` makes it, whatever the gap; set to False it ends, and does not "
+		        "count as broken."))
 		((bool,yielded,false,(Attr::readonly|Attr::hidden),"The bond yielded in tension in the last step."))
 		((bool,slid,false,(Attr::readonly|Attr::hidden),"The bond yielded in shear in the last step."))
 		((bool,rolled,false,(Attr::readonly|Attr::hidden),"The bond yielded in rolling in the last step."))
@@ -121,7 +128,8 @@ the solver finds them, and so are stiffnesses ``kn`` and ``ks``, which rigid con
 		((Real,errorSlip,0,(Attr::readonly|Attr::hidden|Attr::noSave),"What it has slipped without having yielded [m]: an error of position."))
 		((Real,errorTurn,0,(Attr::readonly|Attr::hidden|Attr::noSave),"The same of turning [rad]."))
 		((bool,bondable,false,Attr::triggerPostLoad,"A bond may be made here on request."))
-		((bool,breaks,false,(Attr::readonly|Attr::hidden),"The bond broke in this step, and is not counted yet, also where the scene is saved within the step; not brokenStep == O.iter, which O.resetTime() makes true again."))
+		((bool,breaks,false,(Attr::readonly|Attr::hidden),"The bond broke in this step, and is not counted yet, also where the scene is saved within the step; "
+		        "not brokenStep == O.iter, which O.resetTime() makes true again."))
 		((Vector3r,yieldPath,Vector3r::Zero(),(Attr::readonly|Attr::hidden),"Path [m] yielded in tension, shear and rolling, by which a break is classified."))
 		((Real,residualTensileForce,0,Attr::triggerPostLoad,"F_a of a touching contact that is not bonded [N]."))
 		((Real,residualFriction,0,Attr::triggerPostLoad,"μ_s of a contact that is not bonded."))
@@ -182,7 +190,8 @@ along that wall, or of that one's of the two which has slipped farther.)""",
 REGISTER_SERIALIZABLE(SlipWeakeningPhys);
 
 namespace nscd {
-	/// Mean diameter of the spheres of an interaction [m]; the sphere's own where the other body is a wall. Throws std::invalid_argument where there is none.
+	/// Mean diameter of the spheres of an interaction [m]; the sphere's own where the other body is a wall. Throws
+	/// std::invalid_argument where there is none.
 	Real meanDiameter(const Body& b1, const Body& b2);
 }
 
@@ -193,14 +202,16 @@ public:
 	FUNCTOR2D(NscdMat, NscdMat);
 	/// Throws std::runtime_error, naming the body, where one of two has no NscdMat.
 	static void checkMaterials(const Body& b1, const Body& b2);
-	/// Takes up the materials that the bodies of a contact have now, and makes its physics one of another class where they ask for that; bond and reactions stay.
+	/// Takes up the materials that the bodies of a contact have now, and makes its physics one of another class
+	/// where they ask for that; bond and reactions stay.
 	static void renew(Interaction& interaction, const Body& b1, const Body& b2);
 	/// Sets strengths and lengths of a contact from the materials of its bodies; bond and reactions stay.
 	static void setStrengths(NscdPhys& phys, const Body& b1, const Body& b2);
 	static void setStrengths(NscdPhys& phys, const nonsmooth::contact::plane::Strengths& strengths, Real length);
 	/// What two materials agree on.
 	static nonsmooth::contact::plane::Strengths strengthsOf(const NscdMat& a, const NscdMat& b);
-	/// The same where a contact of two particles needs no more than that; none where its strength follows their slip, or a material does not make sense.
+	/// The same where a contact of two particles needs no more than that; none where its strength follows their
+	/// slip, or a material does not make sense.
 	static std::optional<nonsmooth::contact::plane::Strengths>
 	lastingStrengths(const Material* a, const Material* b);
 	// clang-format off

@@ -148,7 +148,8 @@ void SlipSurfaceMat::open(const Scene& scene, Real h)
 	if (!isNew && !now.isOfSameWalls(geometry))
 		nscd::fail(
 		        "the walls of " + getClassName() + " '" + label
-		        + "' are not those that its cells were cut along, since some came or went: give further walls a material of their own, and keep those that are there");
+		        + "' are not those that its cells were cut along, since some came or went: give further walls a "
+		          "material of their own, and keep those that are there");
 	if (!isNew) return;
 	cutLength = cellLength;
 	if (saved && slip.size() != now.count())

@@ -2,13 +2,17 @@
 //
 // Of a cell of length a, over its contacts in a step of length h, in the order of ids:
 //     σ_now = Σ P_n/(h a) ,   V = Σ |P_n U_t|/Σ |P_n| ,   d = h Σ |P_n (U_t⁻ + U_t⁺)/2|/Σ |P_n| ,   q = −Σ P_t (U_t⁻ + U_t⁺)/(2 a)
-// with impulses P of the step and U⁻, U⁺ before and after it. q is what the solver's sliding has lost there, to the last bit of a sum. The law gets σ, the
-// mean of σ_now over the last slip of length A (cumulative before that; the present value while nothing has slipped), V, d and q, and gives τ; contacts of the cell have
+// with impulses P of the step and U⁻, U⁺ before and after it. q is what the solver's sliding has lost there, to the
+// last bit of a sum. The law gets σ, the mean of σ_now over the last slip of length A (cumulative before that; the
+// present value while nothing has slipped), V, d and q, and gives τ; contacts of the cell have
 //     μ = τ/σ   in the next step (the law's lag),   |T| ≤ μ (F_a + N) ;   μ of the beginning where nothing has pressed yet.
-// Signorini's condition and the rows of rolling and tension stay as they are. σ is an average since contacts are few, unequal and travel: a pressure that is
-// subtracted contact by contact, (N − p ℓ)⁺, takes too much where N is small and nothing where it is large.
-// Signs: compression, slip, heat positive. σ is N'/a where water acts on disks: the law's pressure is an excess over it.
-// Deviations: a contact takes the cell where it was in the step before; where O.dt changes, the law diffuses by the new step from the next one on.
+// Signorini's condition and the rows of rolling and tension stay as they are. σ is an average since contacts are few,
+// unequal and travel: a pressure that is subtracted contact by contact, (N − p ℓ)⁺, takes too much where N is small and
+// nothing where it is large.
+// Signs: compression, slip, heat positive. σ is N'/a where water acts on disks: the law's pressure is an excess over
+// it.
+// Deviations: a contact takes the cell where it was in the step before; where O.dt changes, the law diffuses by the new
+// step from the next one on.
 #pragma once
 
 #include "NscdMat.hpp"
@@ -37,8 +41,8 @@ public:
 	}
 	void preSave(SlipSurfaceMat&);
 
-	/// Cuts the walls into cells where that was not done, in a step of ContactDynamicsEngine and before its solve; h [s]. Throws std::runtime_error where
-	/// walls are not those that the cells were made of.
+	/// Cuts the walls into cells where that was not done, in a step of ContactDynamicsEngine and before its solve;
+	/// h [s]. Throws std::runtime_error where walls are not those that the cells were made of.
 	void open(const Scene& scene, Real h);
 	/// The cell of a point on a wall [m]; −1 before the first step.
 	int cellAt(const Body& wall, const Vector3r& point) const { return geometry.at(wall, point); }
@@ -67,7 +71,8 @@ Cells are cut in the first step of :yref:`ContactDynamicsEngine`; the heat that 
 		((vector<vector<Real>>,lawValues,,(Attr::readonly|Attr::hidden),"Their values."))
 		((Real,cellLength,0,Attr::triggerPostLoad,"Length [m] of a cell along the wall; 0: eight mean diameters of the scene's disks."))
 		((Real,averagingSlip,0,Attr::triggerPostLoad,"Slip A [m] over which a cell's normal stress is a mean; 0: half the length of a cell."))
-		((bool,held,false,,"Whether cells get neither slip nor heat, whatever slides, as while a scene is loaded: a surface that has not slipped keeps the friction before slip."))
+		((bool,held,false,,"Whether cells get neither slip nor heat, whatever slides, as while a scene is loaded: a surface that "
+		        "has not slipped keeps the friction before slip."))
 		((vector<Real>,slip,,(Attr::readonly|Attr::hidden),"Slip of each cell [m]; this and the next three are filled as the material is saved."))
 		((vector<Real>,slipRate,,(Attr::readonly|Attr::hidden),"Its slip rate V [m/s] in the last step."))
 		((vector<Real>,normalStress,,(Attr::readonly|Attr::hidden),"Its normal stress σ [Pa]."))

@@ -1,4 +1,5 @@
-// A soft contact of a disk with a wall that has the strengths of the hard law: the counterpart of NscdPhys for YADE's soft models.
+// A soft contact of a disk with a wall that has the strengths of the hard law: the counterpart of NscdPhys for YADE's
+// soft models.
 #pragma once
 
 #include "NscdMat.hpp"

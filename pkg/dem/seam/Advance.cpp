@@ -64,7 +64,8 @@ namespace {
 
 	std::atomic<const Scene*> begun { nullptr }; // whose step has, see StepHasBegun
 
-	/// The interpreter's lock is free for as long as the block lasts: threads of Python go on, and engines that need it take it.
+	/// The interpreter's lock is free for as long as the block lasts: threads of Python go on, and engines that
+	/// need it take it.
 	class Unlocked {
 	public:
 		Unlocked() = default;
@@ -159,7 +160,8 @@ namespace {
 			refuse("it is making steps of this scene already: call it between two steps, not from an engine or another thread");
 		if (begun == &scene || (scene.subStep >= 0 && !broken.is(scene)))
 			refuse("step " + std::to_string(scene.iter)
-			       + " has begun and is not over: call it between two steps and not from an engine; where an error has ended the step, call O.step() to finish it");
+			       + " has begun and is not over: call it between two steps and not from an engine; where an error has "
+			         "ended the step, call O.step() to finish it");
 	}
 }
 

@@ -22,7 +22,8 @@ namespace {
 		return isOneOf<ForceResetter>(engine) || roleOf(engine) == EngineRole::Blind;
 	}
 
-	/// Runs Python, or writes files. But for what says itself when it acts its isActivated is PeriodicEngine's, or Recorder's, which asks that one.
+	/// Runs Python, or writes files. But for what says itself when it acts its isActivated is PeriodicEngine's, or
+	/// Recorder's, which asks that one.
 	bool isRunnerOrRecorder(const Engine& engine)
 	{
 		return isOneOf<PyRunner>(engine) || roleOf(engine) == EngineRole::Runner
@@ -30,7 +31,8 @@ namespace {
 		        || engine.getClassName() == "SnapshotEngine" || engine.getClassName() == "DomainLimiter";
 	}
 
-	/// An engine's place in the list; the end where it has none, outside a step since somebody called it by hand, and in sub-steps since somebody looks after each.
+	/// An engine's place in the list; the end where it has none, outside a step since somebody called it by hand,
+	/// and in sub-steps since somebody looks after each.
 	auto placeOf(const Scene& scene, const Engine& engine)
 	{
 		const auto& all = scene.engines;

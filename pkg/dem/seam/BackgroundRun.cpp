@@ -1,5 +1,6 @@
-// YADE's thread of O.run() notes the exception that ends it, and O.wait() throws what it finds noted, but only where it has come before the end. Where the end was
-// first, and in a script that never waits, nobody hears of it, and the next O.run() forgets it. Here Python gets at the note.
+// YADE's thread of O.run() notes the exception that ends it, and O.wait() throws what it finds noted, but only where it
+// has come before the end. Where the end was first, and in a script that never waits, nobody hears of it, and the next
+// O.run() forgets it. Here Python gets at the note.
 #include "BackgroundRun.hpp"
 #include <lib/base/Math.hpp>
 #include <boost/python.hpp>
@@ -29,7 +30,8 @@ namespace {
 
 	shared_ptr<ThreadRunner> runner() { return Omega::instance().*open(Runner {}); }
 
-	/// The message of the exception that ended the last run and that nobody has heard of, which forgets it; None if there is none.
+	/// The message of the exception that ended the last run and that nobody has heard of, which forgets it; None if
+	/// there is none.
 	py::object takeFailure()
 	{
 		const auto last = runner();
@@ -37,7 +39,8 @@ namespace {
 		return py::str(last->workerException.what());
 	}
 
-	/// Whether no step of a run is under way; O.running says so as soon as one is to be the last. Not to be asked in the run's own thread.
+	/// Whether no step of a run is under way; O.running says so as soon as one is to be the last. Not to be asked
+	/// in the run's own thread.
 	bool isOver()
 	{
 		const auto last = runner();

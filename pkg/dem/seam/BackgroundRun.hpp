@@ -3,7 +3,8 @@
 
 namespace yade::nscd {
 
-/// Has yade.nonsmooth.world.background watch O.run() and what belongs to it, in this process and from now on. Called with Python's lock, once O's class is known.
+/// Has yade.nonsmooth.world.background watch O.run() and what belongs to it, in this process and from now on. Called
+/// with Python's lock, once O's class is known.
 void watchBackgroundRuns();
 
 } // namespace yade::nscd

@@ -1,4 +1,5 @@
-// What a step takes from the bodies, side by side in memory: YADE's bodies, their states and their shapes lie all over it.
+// What a step takes from the bodies, side by side in memory: YADE's bodies, their states and their shapes lie all over
+// it.
 #pragma once
 
 #include <contact/plane/motion.hpp>

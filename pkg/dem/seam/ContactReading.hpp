@@ -1,7 +1,9 @@
-// What a step takes from one interaction, side by side in memory: geometry and physics of an interaction lie far apart, and to fetch them is most of the work.
+// What a step takes from one interaction, side by side in memory: geometry and physics of an interaction lie far apart,
+// and to fetch them is most of the work.
 //
-// Readings stay from step to step (seam/Resident.hpp). Those of two disks under our own law are kept up to date by themselves, and their interactions follow when
-// somebody looks; the others are read anew after their functors have been called. Where nobody has looked since it came, such a contact is bare: it has no interaction
+// Readings stay from step to step (seam/Resident.hpp). Those of two disks under our own law are kept up to date by
+// themselves, and their interactions follow when somebody looks; the others are read anew after their functors have
+// been called. Where nobody has looked since it came, such a contact is bare: it has no interaction
 // (seam/ResidentMake.cpp).
 #pragma once
 
@@ -106,7 +108,8 @@ inline NscdPhys* physOf(IPhys& phys)
 	return dynamic_cast<NscdPhys*>(&phys);
 }
 
-/// Whether a contact's thresholds, restitution and length are what the law knows, false for numbers that are none; and its normal lies in the plane.
+/// Whether a contact's thresholds, restitution and length are what the law knows, false for numbers that are none; and
+/// its normal lies in the plane.
 inline bool makeSense(const Reading& r)
 {
 	const Real sum = r.adhesion + r.friction + r.rollingArm + r.length;

@@ -52,7 +52,8 @@ namespace {
 	c.leverTj = rj.x * nx + rj.y * ny;
 }
 
-/// How far a bent wall, or the line that a disk's centre follows on it, turns away from its tangent along the path of the step [m]; see Arc.
+/// How far a bent wall, or the line that a disk's centre follows on it, turns away from its tangent along the path of
+/// the step [m]; see Arc.
 Real ContactSeam::bendOf(const Reading& reading, const Contact& c) const
 {
 	const Real curvature = static_cast<const SegmentGeom&>(*reading.geom).curvature;
@@ -70,8 +71,8 @@ void ContactSeam::bend(const Reading& reading, Contact& c) const
 	c.biasN         = c.biasN < 0 ? std::min(c.biasN, -bias) : c.biasN - bias;
 }
 
-/// Fills in a contact and its link, number by number: to copy a contact that was just put together would wait for each of its parts. Returns the impulses of
-/// the step before.
+/// Fills in a contact and its link, number by number: to copy a contact that was just put together would wait for each
+/// of its parts. Returns the impulses of the step before.
 [[gnu::always_inline]] inline Impulse ContactSeam::gatherContact(int slot, Contact& c, Link& link) const
 {
 	const Reading& reading = resident->readings[slot];
@@ -184,7 +185,8 @@ void ContactSeam::gatherBodies(Scene& scene, const Vector3r& gravity)
 {
 	const auto& read = resident->bodies;
 	const long  size = (long)read.size();
-	// also what a script or an engine after the integrator has added to a list that counts as summed up: ForceResetter does not see it
+	// also what a script or an engine after the integrator has added to a list that counts as summed up:
+	// ForceResetter does not see it
 	scene.forces.addMaxId(Body::id_t(size));
 	scene.forces.synced = false;
 	scene.forces.sync();
@@ -305,7 +307,8 @@ void ContactSeam::takeGivenMotion(const Scene& scene)
 		}
 }
 
-/// Tells the contacts that need not be solved for from the others, and counts these, so that each can be gathered where it stays.
+/// Tells the contacts that need not be solved for from the others, and counts these, so that each can be gathered where
+/// it stays.
 void ContactSeam::divide(const Scene& scene)
 {
 	const auto&  order = resident->order;

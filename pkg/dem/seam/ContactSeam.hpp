@@ -1,7 +1,9 @@
-// A step's contact problem made of the bodies and contacts that stay in arrays (seam/Resident.hpp), and its solution taken back to them: gather, scatter.
+// A step's contact problem made of the bodies and contacts that stay in arrays (seam/Resident.hpp), and its solution
+// taken back to them: gather, scatter.
 //
-// The order of contacts is that of body ids, and each contact runs from the lower id to the higher (from the wall to the sphere), whatever
-// order YADE keeps them in: the same scene gives the same bits after loading and on any number of threads.
+// The order of contacts is that of body ids, and each contact runs from the lower id to the higher (from the wall to
+// the sphere), whatever order YADE keeps them in: the same scene gives the same bits after loading and on any number of
+// threads.
 #pragma once
 
 #include "GivenMotion.hpp"
@@ -73,28 +75,33 @@ inline Real enoughStep(Real h, Real radii) { return 0.5 * h / radii; }
 
 class ContactSeam {
 public:
-	/// Makes the contact problem of a step; throws std::runtime_error naming the body where the scene cannot be taken.
+	/// Makes the contact problem of a step; throws std::runtime_error naming the body where the scene cannot be
+	/// taken.
 	void
 	gather(Scene& scene, Resident& resident, const Vector3r& gravity, const Relaxation& relaxation, int threads);
-	/// Before the solve: takes the impacts that follow from impacts one after the other, `most` of one body; returns how many. The solve then has the velocities they
-	/// leave, and bodies are displaced so that each has come its way at the step's end (contact/plane/impact_sequence.hpp).
+	/// Before the solve: takes the impacts that follow from impacts one after the other, `most` of one body;
+	/// returns how many. The solve then has the velocities they leave, and bodies are displaced so that each has
+	/// come its way at the step's end (contact/plane/impact_sequence.hpp).
 	int followImpacts(int most);
 	/// Bodies that had more.
 	int overrun() const { return followed ? sequence.overrun : 0; }
-	/// After a solve: takes in the contacts left out of it that its velocities would close, in the order of ids; returns how many. They need another solve. After
-	/// a few rounds it takes in all.
+	/// After a solve: takes in the contacts left out of it that its velocities would close, in the order of ids;
+	/// returns how many. They need another solve. After a few rounds it takes in all.
 	size_t recall();
-	/// After the last solve, which nothing of it changes: the reactions of contacts whose two bodies both have a given motion (law.hpp, impulseOfGivenMotion).
+	/// After the last solve, which nothing of it changes: the reactions of contacts whose two bodies both have a
+	/// given motion (law.hpp, impulseOfGivenMotion).
 	void answerGivenMotion();
-	/// Of the last answer: how fast two such bodies are driven into each other, the fastest ones [m/s]; 0 where none are. And how many pairs are.
+	/// Of the last answer: how fast two such bodies are driven into each other, the fastest ones [m/s]; 0 where
+	/// none are. And how many pairs are.
 	Real drivenTogether = 0;
 	int  drivenIds[2] = { -1, -1 }, drivenPairs = 0;
-	/// After all solves: finds how far bodies are to be displaced to take back overlaps, bonds' errors of length, and what bonds of bodies that turn as one have slipped
-	/// and turned; scatter moves them.
+	/// After all solves: finds how far bodies are to be displaced to take back overlaps, bonds' errors of length,
+	/// and what bonds of bodies that turn as one have slipped and turned; scatter moves them.
 	void
 	correct(const nonsmooth::contact::SolverSettings& settings, nonsmooth::contact::Workspace& workspace,
 	        int sweeps);
-	/// Before bodies are moved: how far disks go in the step. Throws std::runtime_error where one would go through a body that it does not touch (ContactSeamWay.cpp).
+	/// Before bodies are moved: how far disks go in the step. Throws std::runtime_error where one would go through
+	/// a body that it does not touch (ContactSeamWay.cpp).
 	void followWays(const Scene& scene);
 	/// The farthest way of the last step, against walls and given bodies.
 	LongestWay longest;
@@ -116,7 +123,8 @@ private:
 	/// What becomes of a contact in a step.
 	enum Part : char { None, Solved, Left };
 
-	/// Contacts or bodies that one thread takes at a time; fixed, so that sums do not depend on the number of threads.
+	/// Contacts or bodies that one thread takes at a time; fixed, so that sums do not depend on the number of
+	/// threads.
 	static constexpr size_t sumChunk = 1024;
 	static size_t           chunksOf(size_t count) { return (count + sumChunk - 1) / sumChunk; }
 
@@ -143,7 +151,8 @@ private:
 		const bool passes = !reading.bonded && reading.gap > 0 && c.biasN > reading.gap / relaxation.step;
 		return passes ? c.biasN * relaxation.step : reading.gap;
 	}
-	/// Gap that a contact would have at the step's beginning for bodies that fly all the step with the velocities that impacts leave.
+	/// Gap that a contact would have at the step's beginning for bodies that fly all the step with the velocities
+	/// that impacts leave.
 	Real gapOf(const nonsmooth::contact::Contact& c, const Reading& reading) const
 	{
 		if (followed) return gapAfterImpacts(c, reading);
@@ -226,7 +235,8 @@ private:
 	std::vector<nonsmooth::contact::Twist>
 	        turning; // of bodies: impulses that turn clusters and keep the angular momentum, see turnBack [N s]
 	nonsmooth::contact::plane::RigidClusters clusters;
-	// of bodies, nothing but of those that are loaded and turned: what the centrifugal force gave [m/s]; after the solve displacements [m] and changes of velocity [m/s]
+	// of bodies, nothing but of those that are loaded and turned: what the centrifugal force gave [m/s]; after the
+	// solve displacements [m] and changes of velocity [m/s]
 	std::vector<nonsmooth::contact::Twist> centrifugal, clusterWay, clusterTurn;
 	std::vector<int>                       loaded, turned; // bodies of clusters, in the last step
 	std::vector<char>                      isTurned; // by body

@@ -1,6 +1,7 @@
-// Errors of position, overlaps and what bonds have moved without having yielded, taken back by displacements after the solve of a step: what they are, and what they
-// do to bodies; and clusters of bonded bodies, which are turned as one so that no such error arises.
-// The equations stand in contact/plane/solver.hpp (correctPositions), contact/plane/rigid_clusters.hpp and doc/theory/stepping.rst.
+// Errors of position, overlaps and what bonds have moved without having yielded, taken back by displacements after the
+// solve of a step: what they are, and what they do to bodies; and clusters of bonded bodies, which are turned as one so
+// that no such error arises. The equations stand in contact/plane/solver.hpp (correctPositions),
+// contact/plane/rigid_clusters.hpp and doc/theory/stepping.rst.
 #include "ContactSeam.hpp"
 #include "Prefetch.hpp"
 #include <algorithm>
@@ -86,7 +87,8 @@ void ContactSeam::turnClusters()
 			if (isTurned[problem.contacts[k].i]) setJoins(resident->readings[links[k].slot], true);
 }
 
-/// Whether the frame of a contact turns by so much in the step that its bodies, where a bond holds them, are turned as one.
+/// Whether the frame of a contact turns by so much in the step that its bodies, where a bond holds them, are turned as
+/// one.
 [[gnu::always_inline]] inline bool ContactSeam::turnsFar(const Contact& c) const
 {
 	constexpr Real far
@@ -111,7 +113,8 @@ void ContactSeam::turnClusters()
 	return !plane::yieldsInTension(c, p, u) && !plane::yieldsInShear(c, p);
 }
 
-/// What a contact asks of the positions at the end of the step; `u`: its velocities then, `turns`: its bond is one of bodies that turn as one.
+/// What a contact asks of the positions at the end of the step; `u`: its velocities then, `turns`: its bond is one of
+/// bodies that turn as one.
 [[gnu::always_inline]] inline contact::PositionError ContactSeam::errorOf(size_t k, const Impulse& u, bool turns) const
 {
 	const Real             h = relaxation.step, most = h * relaxation.largestSpeed;
@@ -143,7 +146,8 @@ void ContactSeam::turnClusters()
 	// what it has yielded it keeps too
 	e.sticks = true;
 	e.grips  = !plane::yieldsInTorque(c, p);
-	// sweeps with three rows cost twice as much as along the normals alone: not for bonds that creep along the edge of the slack
+	// sweeps with three rows cost twice as much as along the normals alone: not for bonds that creep along the edge
+	// of the slack
 	constexpr Real asking = 1.25; // slacks
 	const Real     angle  = 2 * relaxation.slack; // by which a rim is off by the slack
 	const Real     slip = r.slip + h * u.t, turn = r.turn + h * u.r;
@@ -184,8 +188,9 @@ void ContactSeam::correct(const contact::SolverSettings& settings, contact::Work
 		contact::correctPositions(problem, settings, workspace, errors, sweeps, correction, anyAcross);
 }
 
-/// Two bodies that are drawn together or apart while they pass each other would change their angular momentum, Σ m D × v: a pair of tangential impulses takes
-/// that back, as for bodies on a string that is shortened. Exact for the positions at the end of the step, and the velocities then.
+/// Two bodies that are drawn together or apart while they pass each other would change their angular momentum, Σ m D ×
+/// v: a pair of tangential impulses takes that back, as for bodies on a string that is shortened. Exact for the
+/// positions at the end of the step, and the velocities then.
 [[gnu::always_inline]] inline void ContactSeam::turnBack(size_t k)
 {
 	const Contact& c    = problem.contacts[k];

@@ -1,5 +1,6 @@
-// Contacts of two bodies whose motions are both given: walls, disks that are held, disks that an engine drives. No impulse changes how such bodies move against each
-// other, so the solve finds nothing there. What the law says of a given motion is the reaction (law.hpp, impulseOfGivenMotion); doc/theory/stepping.rst says why.
+// Contacts of two bodies whose motions are both given: walls, disks that are held, disks that an engine drives. No
+// impulse changes how such bodies move against each other, so the solve finds nothing there. What the law says of a
+// given motion is the reaction (law.hpp, impulseOfGivenMotion); doc/theory/stepping.rst says why.
 #include "ContactSeam.hpp"
 #include <algorithm>
 #include <contact/plane/law.hpp>
@@ -10,8 +11,9 @@ namespace contact = nonsmooth::contact;
 using contact::Contact;
 using contact::Impulse;
 
-/// Relative velocity, without what comes from the frame, which is that of the step's beginning: a pair that turns by the angle φ in a step leaves it by ℓ φ² along the
-/// normal and by ℓ φ³ along the tangent, where nothing opens and nothing slides.
+/// Relative velocity, without what comes from the frame, which is that of the step's beginning: a pair that turns by
+/// the angle φ in a step leaves it by ℓ φ² along the normal and by ℓ φ³ along the tangent, where nothing opens and
+/// nothing slides.
 Impulse ContactSeam::givenVelocity(const Contact& c) const
 {
 	constexpr Real rounding = 1e-12; // of a diameter, or rad, in a step

@@ -1,5 +1,5 @@
-// Impacts that follow from impacts in a step: who may meet, and what the step's solve, positions and balance have of them. The rule and its equations
-// stand in contact/plane/impact_sequence.hpp and doc/theory/stepping.rst.
+// Impacts that follow from impacts in a step: who may meet, and what the step's solve, positions and balance have of
+// them. The rule and its equations stand in contact/plane/impact_sequence.hpp and doc/theory/stepping.rst.
 #include "ContactSeam.hpp"
 #include <contact/plane/disk_contact.hpp>
 
@@ -59,7 +59,8 @@ int ContactSeam::followImpacts(int most)
 	return count;
 }
 
-/// As gatherContact has it, from the velocities and places that impacts leave. What would close has been left by the sequence.
+/// As gatherContact has it, from the velocities and places that impacts leave. What would close has been left by the
+/// sequence.
 void ContactSeam::setBiasAfterImpacts(Contact& c, const Link& link) const
 {
 	constexpr Real touch = 1e-9; // ℓ, as in the sequence: what meets just at the step's end is the next one's
@@ -73,7 +74,8 @@ void ContactSeam::setBiasAfterImpacts(Contact& c, const Link& link) const
 		return;
 	}
 	const Real approach = contact::relativeVelocity(c, before[c.i], before[c.j]).n;
-	// What parts may come back as fast as it went, and no faster: it then takes no energy from what throws it back, and gives none. Places are put right by displacements.
+	// What parts may come back as fast as it went, and no faster: it then takes no energy from what throws it back,
+	// and gives none. Places are put right by displacements.
 	c.biasN = std::max({ Real(0), (gap - std::min(r.gap, Real(0))) / h, approach });
 	if (r.bounces && approach < 0 && gap + h * approach < -touch * c.length) c.biasN = r.restitution * approach;
 	if (r.curved) bend(r, c);

@@ -1,4 +1,5 @@
-// Contacts that were left out of a solve whose velocities would close them: they are taken in, and the step is solved again.
+// Contacts that were left out of a solve whose velocities would close them: they are taken in, and the step is solved
+// again.
 #include "ContactSeam.hpp"
 #include <algorithm>
 

@@ -49,8 +49,8 @@ void StepSums::add(const StepSums& other)
 	bodies += other.bodies;
 }
 
-/// Takes a contact's reactions to where it is kept, and what a bond has yielded; u: its velocities at the end of the step. Returns whether it is a bond that opened
-/// neither in this step nor in the one before.
+/// Takes a contact's reactions to where it is kept, and what a bond has yielded; u: its velocities at the end of the
+/// step. Returns whether it is a bond that opened neither in this step nor in the one before.
 [[gnu::always_inline]] inline bool ContactSeam::scatterContact(size_t k, const Impulse& u, Reading& r) const
 {
 	const Real     h    = relaxation.step;
@@ -82,8 +82,8 @@ void StepSums::add(const StepSums& other)
 	return held;
 }
 
-/// How fast a contact turns and its bond crosses its ellipse at the end of the step. What divisions and roots give, which are slow, is found only where it may
-/// be the largest.
+/// How fast a contact turns and its bond crosses its ellipse at the end of the step. What divisions and roots give,
+/// which are slow, is found only where it may be the largest.
 [[gnu::always_inline]] inline void
 ContactSeam::rateContact(size_t k, const Impulse& u, const Reading& r, ContactSums& sums) const
 {
@@ -237,7 +237,8 @@ StepSums ContactSeam::scatter(Scene& scene, const Vector3r& gravity, int threadC
 		}
 	}
 
-	// slip goes into materials that many contacts share, so one after the other; O.iter would come again after O.resetTime()
+	// slip goes into materials that many contacts share, so one after the other; O.iter would come again after
+	// O.resetTime()
 	static std::atomic<long> allSteps { 0 };
 	const long               number = ++allSteps;
 	for (size_t part = 0; part < chunksC; ++part)
@@ -309,7 +310,8 @@ void ContactSeam::sumBodies(const Vector3r& gravity, size_t begin, size_t end, S
 		if (!present[id]) continue;
 		const Twist &v0 = before[id], &v1 = problem.velocities[id], &r = reaction[id], &f = external[id];
 		const auto&  w = problem.inverseMass[id];
-		// where the motion is given, the work that the contacts do on it goes outside; elsewhere other engines' forces work
+		// where the motion is given, the work that the contacts do on it goes outside; elsewhere other engines'
+		// forces work
 		const Real half = 0.5 * relaxation.step, x = v0.x + v1.x, y = v0.y + v1.y, a = v0.w + v1.w;
 		sums.wallWork -= 0.5 * ((w.x > 0 ? 0 : r.x * x) + (w.y > 0 ? 0 : r.y * y) + (w.w > 0 ? 0 : r.w * a));
 		if (followed) sumImpacts(id, gravity, sums);
@@ -329,7 +331,8 @@ void ContactSeam::sumBodies(const Vector3r& gravity, size_t begin, size_t end, S
 		sums.kinetic += kinetic;
 		sums.potential -= potential;
 		sums.size += kinetic + std::abs(potential);
-		// as the integrator will have them, with its own operations: nobody has brought anything where the next step begins with the same bits
+		// as the integrator will have them, with its own operations: nobody has brought anything where the next
+		// step begins with the same bits
 		const Real   h   = relaxation.step;
 		const Twist& all = force[id];
 		const Twist  left { start.x + h * (w.x > 0 ? 0.0 + (all.x / mass[id] + gravity[0]) : 0.0),
@@ -347,7 +350,8 @@ void ContactSeam::sumBodies(const Vector3r& gravity, size_t begin, size_t end, S
 			v2.y += w.y * p.y;
 			sums.correction += 0.5 * (p.x * (v1.x + v2.x) + p.y * (v1.y + v2.y))
 			        - mass[id] * gravity.dot(Vector3r(d.x, d.y, 0));
-			// gravity works on the mean velocity of the step, also of what a cluster that hangs on a body that is held turns; in pairs it is none
+			// gravity works on the mean velocity of the step, also of what a cluster that hangs on a body
+			// that is held turns; in pairs it is none
 			if (turnsAsOne(id))
 				sums.correction -= 0.5 * h * mass[id]
 				        * gravity.dot(Vector3r(clusterTurn[id].x, clusterTurn[id].y, 0));

@@ -1,9 +1,11 @@
-// Ways of a step that are too long for contacts to be seen. Between two steps a body goes along a straight line, and what was no contact when the step began is not
-// looked for on it. A disk that goes no farther than its radius, against walls and given bodies, cannot have its centre behind one that it did not touch before; and
-// two disks of which neither does cannot pass each other's centres. One that goes farther may:
+// Ways of a step that are too long for contacts to be seen. Between two steps a body goes along a straight line, and
+// what was no contact when the step began is not looked for on it. A disk that goes no farther than its radius, against
+// walls and given bodies, cannot have its centre behind one that it did not touch before; and two disks of which
+// neither does cannot pass each other's centres. One that goes farther may:
 //     w = h (|v − c| + g) / r        v: the disk's velocity, c: the middle of the given bodies' velocities, g: how far these lie from it at most
-// Where w > 1 the paths of the step are looked at: what they cross without a contact is refused before anything is moved, and the rest is told of. Without
-// given bodies c is the middle of all velocities, since disks that fly together cannot meet.
+// Where w > 1 the paths of the step are looked at: what they cross without a contact is refused before anything is
+// moved, and the rest is told of. Without given bodies c is the middle of all velocities, since disks that fly together
+// cannot meet.
 #include "ContactSeam.hpp"
 #include "../walls/Arc.hpp"
 #include "../checks/Refusal.hpp"
@@ -51,8 +53,8 @@ namespace {
 		Real length() const { return std::sqrt(std::pow(to.x - from.x, 2) + std::pow(to.y - from.y, 2)); }
 	};
 
-	/// Whether a centre goes through a line; its distance from it before and after, positive on the side of the normal. A one-sided wall pushes back what is behind
-	/// it by less than a radius.
+	/// Whether a centre goes through a line; its distance from it before and after, positive on the side of the
+	/// normal. A one-sided wall pushes back what is behind it by less than a radius.
 	bool goesThrough(Real before, Real after, int sense, Real radius)
 	{
 		if (before * after >= 0) return false;
@@ -90,7 +92,8 @@ namespace {
 		return false;
 	}
 
-	/// Of a body that fills a box along the axes, seen from its centre: whether the path goes in and comes out again.
+	/// Of a body that fills a box along the axes, seen from its centre: whether the path goes in and comes out
+	/// again.
 	bool crosses(const Vector3r& half, const Path& p)
 	{
 		Real       in = 0, out = 1;
@@ -146,7 +149,8 @@ namespace {
 		     + other.shape->getClassName() + "), which it does not touch yet: against it the disk moves at "
 		     + about(way / h) + " m/s, by " + about(way) + " m in a step of O.dt = " + number(h)
 		     + " s. Set O.dt = " + about(enoughStep(h, way / path.radius))
-		     + " s or less, with which it moves by half its radius, or a lower speed; where the two are not to touch, give them different groupMasks, or the other one bounded = False");
+		     + " s or less, with which it moves by half its radius, or a lower speed; where the two are not to "
+		       "touch, give them different groupMasks, or the other one bounded = False");
 	}
 }
 
@@ -189,7 +193,8 @@ void ContactSeam::followWays(const Scene& scene)
 	refuseCrossings(scene, far, middle);
 }
 
-/// Of disks that go farther than their radius, which are few or on the way to a wrong result: whether they cross what is no contact of theirs.
+/// Of disks that go farther than their radius, which are few or on the way to a wrong result: whether they cross what
+/// is no contact of theirs.
 void ContactSeam::refuseCrossings(const Scene& scene, const std::vector<int>& far, const Point& middle) const
 {
 	Collider* const collider = colliderOf(scene);

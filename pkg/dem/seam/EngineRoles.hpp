@@ -1,4 +1,5 @@
-// What engines of ours do with bodies and contacts in their turns, told by the engines themselves: who looks at YADE's objects (Audience.hpp) rests on it.
+// What engines of ours do with bodies and contacts in their turns, told by the engines themselves: who looks at YADE's
+// objects (Audience.hpp) rests on it.
 #pragma once
 
 #include <core/Engine.hpp>
@@ -16,7 +17,8 @@ enum class EngineRole {
 /// Whether an engine acts in a step that begins at `time` [s] and is `step` [s] long.
 using ActsIn = bool (*)(const Engine& engine, Real time, Real step);
 
-/// Notes the role of a class, and not of those derived from it, for which nobody can tell; to be called where its file is loaded. Without `acts` it always does.
+/// Notes the role of a class, and not of those derived from it, for which nobody can tell; to be called where its file
+/// is loaded. Without `acts` it always does.
 bool giveRole(const std::type_info& engineClass, EngineRole role, ActsIn acts = nullptr);
 
 EngineRole roleOf(const Engine& engine);

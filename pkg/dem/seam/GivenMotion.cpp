@@ -18,7 +18,8 @@ namespace {
 		return smallest < std::numeric_limits<Real>::max() ? smallest : 0;
 	}
 
-	/// Angle from one rotation to another [rad], from −π to π; of bodies that are turned out of the plane the part about z.
+	/// Angle from one rotation to another [rad], from −π to π; of bodies that are turned out of the plane the part
+	/// about z.
 	Real angleBetween(const plane::Rotation& from, const plane::Rotation& to)
 	{
 		const Real s = to.z * from.w - to.w * from.z, c = to.w * from.w + to.z * from.z;
@@ -45,7 +46,8 @@ void GivenMotion::takeMove(
 			told = "body #" + std::to_string(body.id) + ", whose DOFs are blocked, was moved by " + what
 			        + " again, " + number(moved) + (what == string("state.ori") ? " rad" : " m")
 			        + " at once after " + std::to_string(long(series.steps))
-			        + " steps. That is taken for a new place and not for a motion, and what it meets gets no velocity: set state.vel (state.angVel) where it is to push or to drag, and the integrator moves it";
+			        + " steps. That is taken for a new place and not for a motion, and what it meets gets no velocity: set "
+			          "state.vel (state.angVel) where it is to push or to drag, and the integrator moves it";
 	} else {
 		series.interval = series.steps;
 		series.velocity = moved / series.time;
@@ -75,7 +77,8 @@ void GivenMotion::followBody(Body& body, const BodyReading& now, Real smallest)
 	one(2, State::DOF_RZ, angleBetween(was.rotation, m.rotation), 1, m.velocity.w, widest, widest, "state.ori");
 }
 
-/// A velocity that another thread has set between the solve and the integrator moves the body otherwise than it was left to: that is no move of the body by its position.
+/// A velocity that another thread has set between the solve and the integrator moves the body otherwise than it was
+/// left to: that is no move of the body by its position.
 void GivenMotion::expectVelocity(Body& body, const plane::Motion& m) const
 {
 	auto&      was    = body.left;

@@ -1,9 +1,11 @@
 // Velocities of bodies that others move by their positions: walls, whose motion is given since DOFs are blocked.
 //
-// The integrator moves such a body by its velocity. What somebody else adds between two solves, d along x or y, or an angle about z, is a motion where it comes again:
+// The integrator moves such a body by its velocity. What somebody else adds between two solves, d along x or y, or an
+// angle about z, is a motion where it comes again:
 //     u = d / t        with t the time since it was moved so before
-// and the contacts meet the body with v + u, from this solve on until it has stood still for as many steps as there were between the two. A script may move it every step,
-// or every tenth: the mean velocity is the same. It is no motion but a place where the body
+// and the contacts meet the body with v + u, from this solve on until it has stood still for as many steps as there
+// were between the two. A script may move it every step, or every tenth: the mean velocity is the same. It is no motion
+// but a place where the body
 //     is moved for the first time, or after more than `longest` steps,
 //     goes farther at once than `farthest` of the smallest disk, or in several steps' time than `jump` of it (turns by more than `widest`),
 //     is put back against its own velocity, as the belt of a conveyor that stays where it is.

@@ -1,4 +1,5 @@
-// A body's State as motion in the plane, where that is all of its motion: the way between YADE's bodies and contact/plane.
+// A body's State as motion in the plane, where that is all of its motion: the way between YADE's bodies and
+// contact/plane.
 #pragma once
 
 #include <contact/plane/motion.hpp>

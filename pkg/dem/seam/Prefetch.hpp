@@ -12,7 +12,8 @@ template <std::size_t bytes> void fetch(const void* object)
 		__builtin_prefetch(static_cast<const char*>(object) + at, 1);
 }
 
-// What every step reads and writes of an interaction comes first in its objects; the marks of bonds, which come last, are met by the loop alone.
+// What every step reads and writes of an interaction comes first in its objects; the marks of bonds, which come last,
+// are met by the loop alone.
 constexpr std::size_t partOfGeometry = 128, partOfPhysics = 256;
 
 // What of a physics tells whether a script has written into it.

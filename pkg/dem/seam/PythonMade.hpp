@@ -1,7 +1,9 @@
-// Objects that Python has made, and that end where Python's lock is not held: in advance(), and in the thread of O.run().
+// Objects that Python has made, and that end where Python's lock is not held: in advance(), and in the thread of
+// O.run().
 //
-// Boost.Python gives such an object a deleter that takes a reference off, which without the lock ends the process. Whoever may be the last to hold one lets it go
-// here; it ends the next time that one of our engines has its turn in a thread that has the lock, or when advance() returns.
+// Boost.Python gives such an object a deleter that takes a reference off, which without the lock ends the process.
+// Whoever may be the last to hold one lets it go here; it ends the next time that one of our engines has its turn in a
+// thread that has the lock, or when advance() returns.
 #pragma once
 
 #include <boost/python.hpp>

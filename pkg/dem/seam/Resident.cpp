@@ -120,7 +120,8 @@ void Resident::readSlot(const Found& found, int slot)
 	r.phys->hearReset();
 }
 
-/// Takes contacts again that only Python can have changed since they were shown; returns false where all interactions have to be gone through.
+/// Takes contacts again that only Python can have changed since they were shown; returns false where all interactions
+/// have to be gone through.
 bool Resident::takeKnown(Scene& scene)
 {
 	const double begin = steadySeconds();
@@ -285,7 +286,8 @@ void Resident::merge(InteractionContainer& list)
 	if (strewn > order.size() / 20) repack();
 }
 
-/// Puts slots into the order of contacts, which those that come and go leave: whoever goes through them in order then meets neighbours in memory.
+/// Puts slots into the order of contacts, which those that come and go leave: whoever goes through them in order then
+/// meets neighbours in memory.
 void Resident::repack()
 {
 	const long count = (long)order.size();

@@ -1,21 +1,23 @@
 // Bodies and contacts of a scene, kept in arrays from step to step; YADE's objects are a view of them.
 //
-// Either the arrays are right or YADE's objects are: one owner at a time. An engine of ours begins its turn by taking what it needs where the objects own it
-// (take), and ends it by writing everything back where somebody may look before our next turn (show, Audience.hpp). So whoever looks sees the truth, whatever
-// was changed in between is taken up, and a run in which nobody looks leaves the objects alone.
+// Either the arrays are right or YADE's objects are: one owner at a time. An engine of ours begins its turn by taking
+// what it needs where the objects own it (take), and ends it by writing everything back where somebody may look before
+// our next turn (show, Audience.hpp). So whoever looks sees the truth, whatever was changed in between is taken up, and
+// a run in which nobody looks leaves the objects alone.
 //
 //     collide                geometry, bonds           gather, solve, scatter      integrate
 //     PlanarGridCollider     NscdInteractionLoop       ContactDynamicsEngine       PlanarNewtonIntegrator
 //
-// Other threads may look and write while a run goes on in the background. The objects are shown some times a second then, and what others have
-// written into a state, or set in a contact's physics, since it was last shown is left as it is and taken up. A save holds the run's next turn up until
-// the file is written.
+// Other threads may look and write while a run goes on in the background. The objects are shown some times a second
+// then, and what others have written into a state, or set in a contact's physics, since it was last shown is left as it
+// is and taken up. A save holds the run's next turn up until the file is written.
 //
-// Where only Python looks, as at the end of O.step(), the arrays stay known: the next turn looks whether each interaction is still there, and reads those that
-// were written to. What Python sets in an NscdPhys leaves a mark (touched); C++ that changes one outside an engine's turn sets the mark itself.
+// Where only Python looks, as at the end of O.step(), the arrays stay known: the next turn looks whether each
+// interaction is still there, and reads those that were written to. What Python sets in an NscdPhys leaves a mark
+// (touched); C++ that changes one outside an engine's turn sets the mark itself.
 //
-// Interactions that nobody asks for need not exist: a contact of two disks that comes in a step has none until the objects are shown. So a run in which nobody
-// looks makes none, and its contacts are in the arrays alone.
+// Interactions that nobody asks for need not exist: a contact of two disks that comes in a step has none until the
+// objects are shown. So a run in which nobody looks makes none, and its contacts are in the arrays alone.
 //
 // O.forces stays where forces are added up, in every step: it is not kept twice.
 #pragma once
@@ -47,18 +49,21 @@ public:
 		bool                    followed = false; // the collider has found its pair among those that it follows
 	};
 
-	/// A pair of disks within reach that is no contact, and the step since which it has been known; its interaction would not be real.
+	/// A pair of disks within reach that is no contact, and the step since which it has been known; its interaction
+	/// would not be real.
 	struct Pair {
 		int low, high, born;
 	};
 
-	/// What a state had when it was last written or read, and whose it was: others may have changed it since, or put another body in its place.
+	/// What a state had when it was last written or read, and whose it was: others may have changed it since, or
+	/// put another body in its place.
 	struct Shown {
 		nonsmooth::contact::plane::Motion motion;
 		boost::weak_ptr<Body>             body;
 	};
 
-	/// What interactions go through that are made for bare contacts, and a geometry to begin with, of which a part can be set by YADE's functors alone.
+	/// What interactions go through that are made for bare contacts, and a geometry to begin with, of which a part
+	/// can be set by YADE's functors alone.
 	struct Recipe {
 		shared_ptr<IGeomFunctor> geomFunctor;
 		shared_ptr<IPhysFunctor> physFunctor;
@@ -87,16 +92,20 @@ public:
 	/// Writes all into YADE's objects, which own it from now on.
 	void show(const Look& look);
 	void show() { show(Look()); }
-	/// Where no turn is going on in this thread: waits for the end of the one that another thread is in, and keeps others from beginning.
+	/// Where no turn is going on in this thread: waits for the end of the one that another thread is in, and keeps
+	/// others from beginning.
 	std::unique_lock<std::recursive_mutex> betweenTurns();
 	/// Shows there.
 	void showBetweenTurns();
-	/// The same where the scene is about to be saved; steps that another thread makes wait until it is, so that what is written is of one moment.
+	/// The same where the scene is about to be saved; steps that another thread makes wait until it is, so that
+	/// what is written is of one moment.
 	void showForSaving();
-	/// Brings these bodies' states up to date and no more: the arrays stay right, and take what a script has made of these states when the next turn begins. What it
-	/// has written elsewhere stays, and is taken up when all has been shown.
+	/// Brings these bodies' states up to date and no more: the arrays stay right, and take what a script has made
+	/// of these states when the next turn begins. What it has written elsewhere stays, and is taken up when all has
+	/// been shown.
 	void showOnly(const std::vector<int>& ids);
-	/// Writes rows (id, x, y, r, angle, vx, vy, ω) of all spheres as they are now to where `room` has a place for so many numbers.
+	/// Writes rows (id, x, y, r, angle, vx, vy, ω) of all spheres as they are now to where `room` has a place for
+	/// so many numbers.
 	void disks(const std::function<double*(size_t)>& room);
 	/// Makes sure that what it points to stays, whatever other threads erase.
 	void hold();
@@ -119,7 +128,8 @@ public:
 	void add(const shared_ptr<Interaction>& interaction);
 	/// The same without an interaction; `reading` has its strengths' number.
 	void add(const Reading& reading);
-	/// Takes up the contacts that were added, and leaves out those in `gone`, whose interactions become potential ones.
+	/// Takes up the contacts that were added, and leaves out those in `gone`, whose interactions become potential
+	/// ones.
 	void merge(InteractionContainer& list);
 	/// Whether that pair is a contact.
 	bool isContact(int low, int high) const;
@@ -129,9 +139,11 @@ public:
 	void make(int slot);
 	/// The same of a pair that is no contact.
 	void make(const Pair& pair);
-	/// Goes through the bare contacts and the points at which they are [m]; all interactions that there are are up to date then.
+	/// Goes through the bare contacts and the points at which they are [m]; all interactions that there are are up
+	/// to date then.
 	void showBare(const std::function<void(const Reading&, const Vector3r&)>& take);
-	/// Bonds the bare contacts that are to be bonded, and returns how many, and how many bare ones are bonded then; the others' interactions are up to date then, as ContactDynamicsEngine::bond needs them.
+	/// Bonds the bare contacts that are to be bonded, and returns how many, and how many bare ones are bonded then;
+	/// the others' interactions are up to date then, as ContactDynamicsEngine::bond needs them.
 	std::pair<int, int> bondBare();
 	/// Leaves out of the potential interactions those that are no longer in the list.
 	void forgetErased(InteractionContainer& list);
@@ -232,7 +244,8 @@ class Turn {
 public:
 	Turn(Engine& engine, int threads);
 	~Turn();
-	/// Ends it: shows where somebody may look before the next one. Without it, as where an exception leaves, all is shown.
+	/// Ends it: shows where somebody may look before the next one. Without it, as where an exception leaves, all is
+	/// shown.
 	void      end();
 	Resident& resident() { return *data; }
 

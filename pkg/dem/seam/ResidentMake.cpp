@@ -1,7 +1,9 @@
-// Interactions of contacts that came while nobody looked: a bare contact has none until it is made, with all that the arrays know of it.
+// Interactions of contacts that came while nobody looked: a bare contact has none until it is made, with all that the
+// arrays know of it.
 //
-// What a bare contact has is in its reading and, where it is bonded, in its marks; its strengths are those on which its bodies' materials agreed when it came, as they would be in its
-// physics. An interaction is made where somebody may look, where its bond breaks, and where others than the arrays have to follow it.
+// What a bare contact has is in its reading and, where it is bonded, in its marks; its strengths are those on which its
+// bodies' materials agreed when it came, as they would be in its physics. An interaction is made where somebody may
+// look, where its bond breaks, and where others than the arrays have to follow it.
 #include "PlaneMotion.hpp"
 #include "Prefetch.hpp"
 #include "Resident.hpp"
@@ -49,7 +51,8 @@ shared_ptr<Interaction> Resident::interactionOf(int slot) const
 	return interaction;
 }
 
-/// Puts it into YADE's list. The contact is lost where one of its bodies is gone, or somebody has put another interaction in its place.
+/// Puts it into YADE's list. The contact is lost where one of its bodies is gone, or somebody has put another
+/// interaction in its place.
 void Resident::insert(int slot, const shared_ptr<Interaction>& interaction)
 {
 	Reading& r = readings[slot];
@@ -125,8 +128,8 @@ void Resident::makeAll()
 	proposed.clear();
 }
 
-/// Puts YADE's list into the order of body ids, contacts first, so that it does not depend on when interactions were made; and whoever walks along it meets neighbours in
-/// memory.
+/// Puts YADE's list into the order of body ids, contacts first, so that it does not depend on when interactions were
+/// made; and whoever walks along it meets neighbours in memory.
 void Resident::sort()
 {
 	const auto list     = interactions.lock();

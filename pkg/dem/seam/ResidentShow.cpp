@@ -12,8 +12,9 @@
 namespace yade::nscd {
 
 namespace {
-	/// Writes a motion into a state, but for those of its numbers that somebody else has set since they were as in `shown`; these are taken up when bodies are read
-	/// again. A script sets state.vel as a whole, or state.vel[0] alone.
+	/// Writes a motion into a state, but for those of its numbers that somebody else has set since they were as in
+	/// `shown`; these are taken up when bodies are read again. A script sets state.vel as a whole, or state.vel[0]
+	/// alone.
 	void
 	setUntouched(State& s, const nonsmooth::contact::plane::Motion& m, nonsmooth::contact::plane::Motion& shown)
 	{
@@ -30,7 +31,8 @@ namespace {
 		s.ori.w() = shown.rotation.w = m.rotation.w;
 	}
 
-	/// Brings the state of the body of that id up to date, but for one that is gone, and what was changed by somebody else since it was as in `asShown`.
+	/// Brings the state of the body of that id up to date, but for one that is gone, and what was changed by
+	/// somebody else since it was as in `asShown`.
 	void write(BodyReading& b, const shared_ptr<Body>& body, size_t id, std::vector<Resident::Shown>& asShown)
 	{
 		if (!b.moved) return;
@@ -87,8 +89,8 @@ Vector3r Resident::contactPoint(const Reading& r) const
 	return at + (bodies[r.first].radius - 0.5 * -r.gap) * normal;
 }
 
-/// Writes a contact that the arrays keep into its interaction, with the sums and products of the functor. What somebody has written into its physics since it was
-/// read stays, and is read again.
+/// Writes a contact that the arrays keep into its interaction, with the sums and products of the functor. What somebody
+/// has written into its physics since it was read stays, and is read again.
 void Resident::showContact(int slot) const
 {
 	const Reading& r = readings[slot];

@@ -3,8 +3,9 @@
 // With m mass, I moment of inertia about z, r radius, s ratio of the radii after and before:
 //     a disk      I = m r²/2       m ∝ r² ,  I ∝ r⁴
 //     a sphere    I = 2 m r²/5     m ∝ r³ ,  I ∝ r⁵       (bodies of utils.sphere, which keep a sphere's mass)
-// growParticles multiplies by s³ and s⁵ whatever the body is, and who sets shape.radius alone leaves both as they were: these two are mended. Other numbers somebody
-// has chosen, and they stay. A contact's length follows, with what is in proportion to it, and a bond's marks stay on the rims.
+// growParticles multiplies by s³ and s⁵ whatever the body is, and who sets shape.radius alone leaves both as they were:
+// these two are mended. Other numbers somebody has chosen, and they stay. A contact's length follows, with what is in
+// proportion to it, and a bond's marks stay on the rims.
 // Units: m, kg, kg m², per metre of thickness for disks.
 #include "../materials/BondEllipse.hpp"
 #include "../checks/Refusal.hpp"
@@ -25,7 +26,8 @@ namespace {
 		return body.material ? body.material->density * Mathr::PI * (radius * radius) : 0;
 	}
 
-	/// Brings mass and inertia of a body to its new radius; returns what there is to tell of it, empty where nothing is.
+	/// Brings mass and inertia of a body to its new radius; returns what there is to tell of it, empty where
+	/// nothing is.
 	string followSize(Body& body, const FormerSize& former, Real radius)
 	{
 		State&     s     = *body.state;
@@ -60,8 +62,8 @@ namespace {
 	}
 }
 
-/// Of bodies whose radius has changed the spheres that have a size, with the last one that they had before: one without sense, as inf, is refused in this step and mended later, and
-/// what followed it would be lost.
+/// Of bodies whose radius has changed the spheres that have a size, with the last one that they had before: one without
+/// sense, as inf, is refused in this step and mended later, and what followed it would be lost.
 std::vector<FormerSize> Resident::resized(const Scene& scene, const std::vector<FormerSize>& changed)
 {
 	const auto              isSize = [](Real radius) { return radius > 0 && isNumber(radius); };

@@ -1,4 +1,5 @@
-// Wall time of the stages of a step: one clock, which the plugin's engines write to and the scene's ContactDynamicsEngine keeps.
+// Wall time of the stages of a step: one clock, which the plugin's engines write to and the scene's
+// ContactDynamicsEngine keeps.
 #pragma once
 
 #include <array>
@@ -26,7 +27,8 @@ struct StageClock {
 	static StageClock* of(const Scene& scene);
 };
 
-/// Counts the time from one reading of the clock to the next for the stage that goes on in between; the last stage ends with the block, however it ends.
+/// Counts the time from one reading of the clock to the next for the stage that goes on in between; the last stage ends
+/// with the block, however it ends.
 class StageTimer {
 public:
 	StageTimer(StageClock* clock, Stage first)

@@ -11,7 +11,8 @@
 namespace yade::nscd {
 
 namespace {
-	/// Shows what a thread leaves when it ends: YADE starts one for each O.run, and O.pause() may end it behind our last look.
+	/// Shows what a thread leaves when it ends: YADE starts one for each O.run, and O.pause() may end it behind our
+	/// last look.
 	struct ThreadEnd {
 		std::weak_ptr<Resident> last;
 		~ThreadEnd()
@@ -48,7 +49,8 @@ Turn::Turn(Engine& engine_, int threads)
 		data->show();
 		throw std::runtime_error(
 		        engine.getClassName()
-		        + ": O.engines was changed while O.bodies was not up to date (advance(view=False)), and engines of YADE's own have acted in this step on bodies as they were before: call"
+		        + ": O.engines was changed while O.bodies was not up to date (advance(view=False)), and engines of "
+		          "YADE's own have acted in this step on bodies as they were before: call"
 		          " ContactDynamicsEngine.view() before O.engines is changed. All is up to date now, and the step may be made again");
 	}
 	if (!data->bodiesOwned) data->takeBodies(scene);
@@ -67,7 +69,8 @@ void Turn::end()
 			keepUntilLocked(one);
 	if (viewer.name.empty() && othersMayLook(scene)) {
 		if (data->contactsOwned) data->hold(); // another thread may erase what the arrays point to
-		// others may look at any time: as often as it costs a fiftieth, with what is taken again afterwards; seldom where the script said that nobody does
+		// others may look at any time: as often as it costs a fiftieth, with what is taken again afterwards;
+		// seldom where the script said that nobody does
 		threadEnd.last     = data;
 		const bool   all   = interactionsWanted(scene);
 		const double least = all ? 0.05 : 1, share = all ? 50 : 200;

@@ -1,10 +1,10 @@
-// Contacts of spheres with facets, boxes and walls in space, also while the gap is open: YADE's own functors for facets and walls make none before touch, and where two
-// facets meet each of them has one.
+// Contacts of spheres with facets, boxes and walls in space, also while the gap is open: YADE's own functors for facets
+// and walls make none before touch, and where two facets meet each of them has one.
 //
 // With c the sphere's centre, r its radius, q the wall's point nearest to c:
 //     n = (c − q)/|c − q| ,   g = |c − q| − r ,   x_c = c − (r + g/2) n .
-// Inside a box, and behind a one-sided wall, n points to where the centre has come from (contact/space/nearest.hpp). Sign: n from the wall to the sphere; a gap is
-// positive. Units: m.
+// Inside a box, and behind a one-sided wall, n points to where the centre has come from (contact/space/nearest.hpp).
+// Sign: n from the wall to the sphere; a gap is positive. Units: m.
 #pragma once
 
 #include "../checks/Refusal.hpp"
@@ -22,7 +22,8 @@ class FaceGeom : public ScGeom {
 public:
 	virtual ~FaceGeom() = default;
 	// clang-format off
-	YADE_CLASS_BASE_DOC_ATTRS_CTOR(FaceGeom,ScGeom,"Contact of a :yref:`Facet`, a :yref:`Box` or a :yref:`Wall` with a sphere; :yref:`normal<GenericSpheresContact.normal>` points from the wall to the sphere.",
+	YADE_CLASS_BASE_DOC_ATTRS_CTOR(FaceGeom,ScGeom,"Contact of a :yref:`Facet`, a :yref:`Box` or a :yref:`Wall` with a sphere; "
+	        ":yref:`normal<GenericSpheresContact.normal>` points from the wall to the sphere.",
 		((bool,owned,true,Attr::readonly,"The contact is this facet's; false once the sphere has passed an edge to the facet behind it."))
 		,
 		createIndex();
@@ -40,7 +41,8 @@ namespace nscd {
 		bool     owned = true; // the contact is this wall's
 	};
 
-	/// Makes or updates the geometry of a wall, the interaction's first body, and a sphere; returns false where it is to have none. `factor`: interactionDetectionFactor.
+	/// Makes or updates the geometry of a wall, the interaction's first body, and a sphere; returns false where it
+	/// is to have none. `factor`: interactionDetectionFactor.
 	bool setFaceGeom(
 	        const FaceNearest& near, Real radius, Real factor, const State& wall, const State& sphere,
 	        const Vector3r& shift, bool force, Scene* scene, const shared_ptr<Interaction>& interaction);
@@ -72,7 +74,8 @@ public:
 	YADE_CLASS_BASE_DOC_ATTRS(Ig2_Facet_Sphere_FaceGeom,IGeomFunctor,
 R"""(Make or update the geometry (:yref:`FaceGeom`) of a :yref:`Facet` and a :yref:`Sphere`, also while the gap is open. Facets that share an edge or a vertex are one
 surface: a sphere has one contact where they go on straight or turn away from it, and two where they turn towards it.)""",
-		((Real,interactionDetectionFactor,1,Attr::triggerPostLoad,"A contact exists where the gap is below (factor − 1) times the sphere's diameter; at least 1, as for :yref:`Ig2_Sphere_Sphere_ScGeom.interactionDetectionFactor`."))
+		((Real,interactionDetectionFactor,1,Attr::triggerPostLoad,"A contact exists where the gap is below (factor − 1) times the sphere's diameter; at least 1, as for "
+		        ":yref:`Ig2_Sphere_Sphere_ScGeom.interactionDetectionFactor`."))
 	);
 	// clang-format on
 };
@@ -99,8 +102,10 @@ public:
 	FUNCTOR2D(Box, Sphere);
 	DEFINE_FUNCTOR_ORDER_2D(Box, Sphere);
 	// clang-format off
-	YADE_CLASS_BASE_DOC_ATTRS(Ig2_Box_Sphere_FaceGeom,IGeomFunctor,"Make or update the geometry (:yref:`FaceGeom`) of a :yref:`Box` and a :yref:`Sphere`, also while the gap is open.",
-		((Real,interactionDetectionFactor,1,Attr::triggerPostLoad,"A contact exists where the gap is below (factor − 1) times the sphere's diameter; at least 1, as for :yref:`Ig2_Sphere_Sphere_ScGeom.interactionDetectionFactor`."))
+	YADE_CLASS_BASE_DOC_ATTRS(Ig2_Box_Sphere_FaceGeom,IGeomFunctor,"Make or update the geometry (:yref:`FaceGeom`) of a :yref:`Box` and a :yref:`Sphere`, also while the "
+	        "gap is open.",
+		((Real,interactionDetectionFactor,1,Attr::triggerPostLoad,"A contact exists where the gap is below (factor − 1) times the sphere's diameter; at least 1, as for "
+		        ":yref:`Ig2_Sphere_Sphere_ScGeom.interactionDetectionFactor`."))
 	);
 	// clang-format on
 };
@@ -129,8 +134,10 @@ public:
 	FUNCTOR2D(Wall, Sphere);
 	DEFINE_FUNCTOR_ORDER_2D(Wall, Sphere);
 	// clang-format off
-	YADE_CLASS_BASE_DOC_ATTRS(Ig2_Wall_Sphere_FaceGeom,IGeomFunctor,"Make or update the geometry (:yref:`FaceGeom`) of a :yref:`Wall` and a :yref:`Sphere`, also while the gap is open.",
-		((Real,interactionDetectionFactor,1,Attr::triggerPostLoad,"A contact exists where the gap is below (factor − 1) times the sphere's diameter; at least 1, as for :yref:`Ig2_Sphere_Sphere_ScGeom.interactionDetectionFactor`."))
+	YADE_CLASS_BASE_DOC_ATTRS(Ig2_Wall_Sphere_FaceGeom,IGeomFunctor,"Make or update the geometry (:yref:`FaceGeom`) of a :yref:`Wall` and a :yref:`Sphere`, also while "
+	        "the gap is open.",
+		((Real,interactionDetectionFactor,1,Attr::triggerPostLoad,"A contact exists where the gap is below (factor − 1) times the sphere's diameter; at least 1, as for "
+		        ":yref:`Ig2_Sphere_Sphere_ScGeom.interactionDetectionFactor`."))
 	);
 	// clang-format on
 };

@@ -4,10 +4,12 @@
 //   - where q lies within its face;
 //   - where q lies on an edge or at a vertex, unless another facet that has q too is nearer to the centre elsewhere (it goes on below the sphere), or is of lower id and
 //     has q for its nearest point as well (a convex edge or corner, whose first facet has the contact).
-// So coplanar facets and convex edges have one contact, and concave edges, at which the faces of two facets are touched, have two.
+// So coplanar facets and convex edges have one contact, and concave edges, at which the faces of two facets are
+// touched, have two.
 //
-// Facets meet where they have a vertex of the other on them, up to 1e-6 of the shorter one's size and rounding. It is looked up by positions in the step in which
-// facets have come, gone, moved or been changed. Those of different groupMask are not joined, nor what no sphere can touch (Body.bounded False).
+// Facets meet where they have a vertex of the other on them, up to 1e-6 of the shorter one's size and rounding. It is
+// looked up by positions in the step in which facets have come, gone, moved or been changed. Those of different
+// groupMask are not joined, nor what no sphere can touch (Body.bounded False).
 #pragma once
 
 #include "../seam/PerScene.hpp"

@@ -1,6 +1,8 @@
-// State of a nonsmooth cohesive contact of bodies that move in space: what NscdPhys has of one in the plane, with reactions that are vectors, and twisting.
+// State of a nonsmooth cohesive contact of bodies that move in space: what NscdPhys has of one in the plane, with
+// reactions that are vectors, and twisting.
 //
-// Thresholds, with F_a = σ A, the area A = π/4 ℓ² of a contact between spheres (in the plane F_a = σ ℓ, per metre of thickness):
+// Thresholds, with F_a = σ A, the area A = π/4 ℓ² of a contact between spheres (in the plane F_a = σ ℓ, per metre of
+// thickness):
 //     |T| ≤ μ_s (F_a + N)  sliding,   |M_r| ≤ μ_r ℓ (F_a + N)  rolling,   |M_n| ≤ μ_tw ℓ (F_a + N)  twisting.
 // Forces and torques act on the second body of the interaction; M_r is at right angles to the normal, M_n along it.
 #pragma once
@@ -21,7 +23,8 @@ public:
 		return NscdPhys::makesSenseAtOnce() && least >= 0 && nscd::isNumber(sum)
 		        && (!bonded || ellipseTwisting > 0);
 	}
-	/// Makes of strengths in the plane, as Ip2_NscdMat_NscdMat_NscdPhys sets them, those in space: tension on an area, and twisting.
+	/// Makes of strengths in the plane, as Ip2_NscdMat_NscdMat_NscdPhys sets them, those in space: tension on an
+	/// area, and twisting.
 	void setStrengths(const NscdMat& a, const NscdMat& b);
 	/// Area [m²] on which the tensile strength of a contact of that length acts.
 	static Real areaOf(Real length) { return 0.25 * Mathr::PI * length * length; }

@@ -1,4 +1,5 @@
-// Bonds of bodies in space: their marks, where they stand now, and what becomes of them in a step. Equations: contact/space/bond.hpp.
+// Bonds of bodies in space: their marks, where they stand now, and what becomes of them in a step. Equations:
+// contact/space/bond.hpp.
 #pragma once
 
 #include "../materials/BondEllipse.hpp"

@@ -211,7 +211,8 @@ void SpaceSeam::refuse(const Scene& scene, Interaction& I) const
 	if (typeid(*phys) != typeid(NscdSpacePhys))
 		fail(pair + " has a " + phys->getClassName()
 		     + ", and bodies move in space, where contacts have an NscdSpacePhys: walls that weaken by slip are for disks in the plane"
-		       " (state.blockedDOFs = 'zXY'), and contacts that were made while all bodies were in the plane must be made anew (O.interactions.clear())");
+		       " (state.blockedDOFs = 'zXY'), and contacts that were made while all bodies were in the plane must be "
+		       "made anew (O.interactions.clear())");
 	if (!std::isfinite(static_cast<const ScGeom&>(*I.geom).normal.sum()))
 		fail(pair
 		     + " has no normal: the centres are at one place, or a position is not finite: move one of them");

@@ -1,9 +1,12 @@
-// A step's contact problem in space made of YADE's bodies and interactions, and its solution taken back to them: gather, scatter.
+// A step's contact problem in space made of YADE's bodies and interactions, and its solution taken back to them:
+// gather, scatter.
 //
-// The order of contacts is that of body ids, and each runs from the lower id to the higher, or from a wall to the sphere, whatever order YADE keeps them in: the same
-// scene gives the same bits after loading and on any number of threads.
-// Bodies: spheres, which move freely or along some axes of the world; and bodies of any shape whose motion is given, or which move without turning (a plate under a load).
-// Errors of position (contact/plane/solver.hpp): an overlap at the end of the step is taken back by the share κ, by displacements that leave no velocity behind.
+// The order of contacts is that of body ids, and each runs from the lower id to the higher, or from a wall to the
+// sphere, whatever order YADE keeps them in: the same scene gives the same bits after loading and on any number of
+// threads.
+// Bodies: spheres, which move freely or along some axes of the world; and bodies of any shape whose motion is given, or
+// which move without turning (a plate under a load). Errors of position (contact/plane/solver.hpp): an overlap at the
+// end of the step is taken back by the share κ, by displacements that leave no velocity behind.
 #pragma once
 
 #include "../seam/ContactSeam.hpp"
@@ -15,7 +18,8 @@ namespace yade::nscd {
 
 class SpaceSeam {
 public:
-	/// Makes the contact problem of a step; throws std::runtime_error naming the body or interaction that cannot be taken.
+	/// Makes the contact problem of a step; throws std::runtime_error naming the body or interaction that cannot be
+	/// taken.
 	void gather(Scene& scene, const Vector3r& gravity, const Relaxation& relaxation, int threads);
 	/// After the solve: finds how far bodies are to be displaced to take back overlaps; scatter moves them.
 	void
@@ -87,7 +91,8 @@ private:
 	std::vector<nonsmooth::contact::space::Twist>         reaction; // of contacts on bodies: impulses [N s, N m s]
 };
 
-/// Whether the scene's bodies move in space: one is free out of the x-y plane, and no engine or shape says that the plane is meant.
+/// Whether the scene's bodies move in space: one is free out of the x-y plane, and no engine or shape says that the
+/// plane is meant.
 bool isInSpace(const Scene& scene, const std::vector<BodyReading>& bodies);
 
 } // namespace yade::nscd

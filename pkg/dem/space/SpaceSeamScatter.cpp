@@ -1,4 +1,5 @@
-// What a step's solution in space means for YADE: reactions and forces written back, and the sums over contacts and bodies.
+// What a step's solution in space means for YADE: reactions and forces written back, and the sums over contacts and
+// bodies.
 #include "SpaceSeam.hpp"
 #include "Vectors.hpp"
 #include "../seam/Prefetch.hpp"
@@ -148,7 +149,8 @@ void SpaceSeam::sumBody(size_t id, const Vector3r& gravity, StepSums& sums) cons
 	const auto       mean = space::Twist { 0.5 * (v0.v + v1.v), 0.5 * (v0.w + v1.w) };
 	const auto given = [](Real inverseMass, Real force, Real speed) { return inverseMass > 0 ? 0 : force * speed; };
 	const auto free  = [](Real inverseMass, Real force, Real speed) { return inverseMass > 0 ? force * speed : 0; };
-	// where the motion is given, the work that the contacts do on it goes outside; elsewhere other engines' forces work
+	// where the motion is given, the work that the contacts do on it goes outside; elsewhere other engines' forces
+	// work
 	sums.wallWork -= given(m.x, r.v.x, mean.v.x) + given(m.y, r.v.y, mean.v.y) + given(m.z, r.v.z, mean.v.z)
 	        + given(m.inertia.xx, r.w.x, mean.w.x) + given(m.inertia.yy, r.w.y, mean.w.y)
 	        + given(m.inertia.zz, r.w.z, mean.w.z);

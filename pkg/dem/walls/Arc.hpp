@@ -2,13 +2,14 @@
 //
 // With c the sphere's centre as seen from that of the circle, d = |c|, R the arc's radius, r the sphere's:
 //     inside:  gap = R − d − r ,  n = −c/d        outside:  gap = d − R − r ,  n = c/d .
-// While it touches, the sphere's centre goes along a circle of radius D = R − r or R + r. A step is a straight line; so that it ends on this circle again, the
-// condition on the normal velocity of the step's end is, with w the path across n,
+// While it touches, the sphere's centre goes along a circle of radius D = R − r or R + r. A step is a straight line; so
+// that it ends on this circle again, the condition on the normal velocity of the step's end is, with w the path across
+// n,
 //     U_n ≥ −gap/h ± (D − √(D² − w²))/h      (+ inside, − outside) ,
-// which ContactDynamicsEngine takes from SegmentGeom::curvature = ±1/D. Chords of a circle turn the velocity without changing its size, so that neither a swing in a bowl
-// nor a disk that rolls around a drum loses energy to the steps.
-// Sign and sides: as Segment, for an arc that is travelled counter-clockwise: + is the inside. The body's position is the circle's centre, so that a drum turns by its
-// angular velocity alone.
+// which ContactDynamicsEngine takes from SegmentGeom::curvature = ±1/D. Chords of a circle turn the velocity without
+// changing its size, so that neither a swing in a bowl nor a disk that rolls around a drum loses energy to the steps.
+// Sign and sides: as Segment, for an arc that is travelled counter-clockwise: + is the inside. The body's position is
+// the circle's centre, so that a drum turns by its angular velocity alone.
 #pragma once
 
 #include "Segment.hpp"
@@ -34,7 +35,8 @@ R"""(Part of a circle in the x-y plane, or all of it, as a wall: the body's posi
 Ends that meet those of :yref:`segments<Segment>` or other arcs are joints, see :yref:`Segment`. Spheres inside must be smaller than the circle. See :yref:`yade.nonsmooth.scene.arc`.)""",
 		((Real,radius,1,Attr::triggerPostLoad,"Radius of the circle [m]."))
 		((Real,halfAngle,Mathr::PI,Attr::triggerPostLoad,"Half of the angle of the arc [rad]; π: the whole circle, which has no ends."))
-		((int,sense,1,Attr::triggerPostLoad,"Side that acts: 1 the inside, −1 the outside, 0 both. A one-sided arc also pushes back a sphere whose centre is behind it by less than its radius."))
+		((int,sense,1,Attr::triggerPostLoad,"Side that acts: 1 the inside, −1 the outside, 0 both. A one-sided arc also pushes back a sphere "
+		        "whose centre is behind it by less than its radius."))
 		,
 		createIndex();
 	);
@@ -48,7 +50,8 @@ public:
 	void go(const shared_ptr<Shape>& shape, shared_ptr<Bound>& bound, const Se3r& se3, const Body*) override;
 	FUNCTOR1D(Arc);
 	// clang-format off
-	YADE_CLASS_BASE_DOC(Bo1_Arc_Aabb,BoundFunctor,"Make or update the :yref:`Aabb` of an :yref:`Arc`. All spheres in it are looked at in each step: cut an arc that is large beside many of them into pieces.");
+	YADE_CLASS_BASE_DOC(Bo1_Arc_Aabb,BoundFunctor,"Make or update the :yref:`Aabb` of an :yref:`Arc`. All spheres in it are looked at in each step: cut "
+	        "an arc that is large beside many of them into pieces.");
 	// clang-format on
 };
 REGISTER_SERIALIZABLE(Bo1_Arc_Aabb);
@@ -82,7 +85,8 @@ public:
 	// clang-format off
 	YADE_CLASS_BASE_DOC_ATTRS(Ig2_Arc_Sphere_ScGeom,IGeomFunctor,
 R"""(Make or update the geometry (:yref:`SegmentGeom`) of an :yref:`Arc` and a :yref:`Sphere`, also while the gap is open.)""",
-		((Real,interactionDetectionFactor,1,Attr::triggerPostLoad,"A contact exists where the gap is below (factor − 1) times the sphere's diameter; at least 1, as for :yref:`Ig2_Sphere_Sphere_ScGeom.interactionDetectionFactor`."))
+		((Real,interactionDetectionFactor,1,Attr::triggerPostLoad,"A contact exists where the gap is below (factor − 1) times the sphere's diameter; at least 1, as for "
+		        ":yref:`Ig2_Sphere_Sphere_ScGeom.interactionDetectionFactor`."))
 	);
 	// clang-format on
 	FUNCTOR2D(Arc, Sphere);

@@ -38,7 +38,8 @@ namespace nscd {
 
 	void takeEnd(const WallEnd& end, const Vector3r& out, int sense, Real radius, WallNearest& result)
 	{
-		// not owned: as if the wall went on, for bonds that live until they leave their ellipse; behind a one-sided wall there is nothing to touch
+		// not owned: as if the wall went on, for bonds that live until they leave their ellipse; behind a
+		// one-sided wall there is nothing to touch
 		result.owned = end.owns(out, radius) && !(sense != 0 && out.dot(result.normal) < 0);
 		if (!result.owned) return;
 		// outside a convex corner or a free end: the corner itself is the nearest point

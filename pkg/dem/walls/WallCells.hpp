@@ -1,10 +1,11 @@
 // Cells along walls: pieces of equal length of what hangs together, which a slip law keeps its state in.
 //
-// Segments and arcs of one material are chained where each begins at the end of the one before it, in the order of ids, or each ends where that begins; each
-// chain is cut into
+// Segments and arcs of one material are chained where each begins at the end of the one before it, in the order of ids,
+// or each ends where that begins; each chain is cut into
 //     n = max(1, round(L/length))
-// cells of its own length L. So the joints of a polyline matter to no cell, and a wall that is cut finer has the same ones.
-// Place along a chain: arc length s [m] from where its first wall begins, along local +x of a segment and counter-clockwise on an arc, or the other way.
+// cells of its own length L. So the joints of a polyline matter to no cell, and a wall that is cut finer has the same
+// ones. Place along a chain: arc length s [m] from where its first wall begins, along local +x of a segment and
+// counter-clockwise on an arc, or the other way.
 #pragma once
 
 #include <core/Body.hpp>
@@ -16,7 +17,8 @@ namespace yade::nscd {
 class WallCells {
 public:
 	WallCells() = default;
-	/// Throws std::runtime_error where a body of the material is neither a Segment nor an Arc, and for more than a million cells.
+	/// Throws std::runtime_error where a body of the material is neither a Segment nor an Arc, and for more than a
+	/// million cells.
 	WallCells(const Scene& scene, const Material& material, Real length);
 
 	size_t count() const { return ofCell.size(); }
@@ -26,7 +28,8 @@ public:
 	Real lengthOf(size_t cell) const;
 	/// Where a cell begins, from the beginning of the first chain, as if each followed the one before [m].
 	Real beginOf(size_t cell) const;
-	/// Where a place along a cell's wall lies now, `share` from 0, its beginning, to 1 [m]; NaN where the wall is gone.
+	/// Where a place along a cell's wall lies now, `share` from 0, its beginning, to 1 [m]; NaN where the wall is
+	/// gone.
 	Vector3r pointOf(const Scene& scene, size_t cell, Real share) const;
 	bool     isOfSameWalls(const WallCells& other) const;
 

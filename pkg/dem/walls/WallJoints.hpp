@@ -1,16 +1,20 @@
-// Which ends of walls meet, so that walls that were made one by one are one wall to a disk that rolls over their joints.
+// Which ends of walls meet, so that walls that were made one by one are one wall to a disk that rolls over their
+// joints.
 //
-// Where nothing is known of the other, the end of a wall is a corner: a disk whose centre stands beyond it touches the end point. At a joint the end point lies on
-// another wall, and would be a bump of the size of a step's path. With c the centre as seen from the end point, of the walls that meet there and act on the disk's side:
+// Where nothing is known of the other, the end of a wall is a corner: a disk whose centre stands beyond it touches the
+// end point. At a joint the end point lies on another wall, and would be a bump of the size of a step's path. With c
+// the centre as seen from the end point, of the walls that meet there and act on the disk's side:
 //   - one that passes through the point (a T) has the contact;
 //   - one whose direction away from the point has a positive component along c has it, since the centre stands above its length;
 //   - where the centre stands above none of them, in the wedge outside a convex corner, the first of them has it: that of lowest id, or of two the one that
 //     Segment.nextDirection and previousDirection name (yade.nonsmooth.scene.join).
-// So a joint has one contact where the walls go on straight or turn away from the disk, and two where they turn towards it.
+// So a joint has one contact where the walls go on straight or turn away from the disk, and two where they turn towards
+// it.
 //
-// Ends meet where they are nearer than 1e-6 of the shorter wall's length, and rounding; where join() has named them, a hundredth. It is looked up by positions in
-// the step in which walls have come, gone, moved or been changed, so it does not matter how or when they were made. Walls of different groupMask are not joined, nor
-// what no disk can touch (Body.bounded False).
+// Ends meet where they are nearer than 1e-6 of the shorter wall's length, and rounding; where join() has named them, a
+// hundredth. It is looked up by positions in the step in which walls have come, gone, moved or been changed, so it does
+// not matter how or when they were made. Walls of different groupMask are not joined, nor what no disk can touch
+// (Body.bounded False).
 #pragma once
 
 #include "../seam/PerScene.hpp"
@@ -56,9 +60,11 @@ using WallEnds = std::array<WallEnd, 2>;
 
 class WallJoints : public PerScene<WallJoints> {
 public:
-	/// Looks up which ends meet, where walls are other ones than at the last look or have moved; `ids`: all bodies that may be walls. Not while others ask.
+	/// Looks up which ends meet, where walls are other ones than at the last look or have moved; `ids`: all bodies
+	/// that may be walls. Not while others ask.
 	void find(const Scene& scene, const std::vector<int>& ids);
-	/// What meets the ends of a wall in this step; `anew`: whatever was looked up before. For functors in YADE's loop, which nobody calls find() for.
+	/// What meets the ends of a wall in this step; `anew`: whatever was looked up before. For functors in YADE's
+	/// loop, which nobody calls find() for.
 	const WallEnds& endsOf(const Scene& scene, Body::id_t id, bool anew);
 
 private:
