@@ -33,6 +33,7 @@ namespace solving {
 
 	private:
 		void begin();
+		void roundStrip(std::size_t strip);
 		void round();
 		void finish(bool take);
 		bool sweepAndPatch();
@@ -89,6 +90,7 @@ namespace solving {
 			        } else {
 				        exact.keepBodies(s);
 				        exact.measureStrip(s, false);
+				        if (rounded) roundStrip(s);
 			        }
 		        });
 		if (settings.maxIterations == 0) exact.judgeAll();
@@ -96,13 +98,29 @@ namespace solving {
 			exact.judge(settings.tolerance);
 	}
 
-	/// The same state in floats.
+	/// What sweeps in floats begin with, of the bodies and blocks of a strip.
+	template <class Dimension> void Solve<Dimension>::roundStrip(std::size_t s)
+	{
+		const std::size_t begin = laidOut.blockBegin[s];
+		kernels.round(
+		        exact.blocksOf(s), exact.own.inverseLength.data() + begin, exact.countOf(s),
+		        rounded->blocksOf(s), rounded->own.inverseLength.data() + begin);
+		for (std::size_t b = begin; exact.playsOf(s) && b < laidOut.blockBegin[s + 1]; ++b)
+			for (std::size_t l = 0; l < lanes; ++l)
+				rounded->own.plays[b].v[l] = static_cast<float>(exact.own.plays[b].v[l]);
+		exact.forNew(s, [this](std::size_t place, std::int32_t) {
+			narrow(exact.bodies[place], rounded->bodies[place]);
+		});
+		rounded->keepBodies(s);
+	}
+
+	/// The same state in floats: strips have been rounded while they were at hand, in begin().
 	template <class Dimension> void Solve<Dimension>::round()
 	{
 		rounded->plan();
-		const auto body = [this](std::size_t place, std::int32_t) {
+		exact.forFixed([this](std::size_t place, std::int32_t) {
 			narrow(exact.bodies[place], rounded->bodies[place]);
-		};
+		});
 #pragma omp single
 		{
 			rounded->rows       = exact.rows;
@@ -110,19 +128,6 @@ namespace solving {
 			rounded->residual   = exact.residual;
 			rounded->scale.mean = exact.scale.mean;
 		}
-		exact.forFixed(body);
-		rounded->schedule.passes(omp_get_thread_num(), 1, [&](std::size_t s, int, const StripSchedule::Ahead&) {
-			const std::size_t begin = laidOut.blockBegin[s];
-			kernels.round(
-			        exact.blocksOf(s), exact.own.inverseLength.data() + begin, exact.countOf(s),
-			        rounded->blocksOf(s), rounded->own.inverseLength.data() + begin);
-			for (std::size_t b = begin; exact.playsOf(s) && b < laidOut.blockBegin[s + 1]; ++b)
-				for (std::size_t l = 0; l < lanes; ++l)
-					rounded->own.plays[b].v[l] = static_cast<float>(exact.own.plays[b].v[l]);
-			exact.forNew(s, body);
-			rounded->keepBodies(s);
-		});
-#pragma omp barrier
 	}
 
 	/// Gives back the impulses of a part, and the velocities of the bodies that it is the first to touch.

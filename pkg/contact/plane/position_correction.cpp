@@ -27,7 +27,7 @@ namespace {
 } // namespace
 
 /// What correct.tpp asks of a lane: the graph along its normal, and those across it.
-void setLength(Block<double>& k, std::size_t l, const PositionError& e)
+[[gnu::always_inline]] inline void setLength(Block<double>& k, std::size_t l, const PositionError& e)
 {
 	const double adhesion = adhesionOf(e), impulse = projectNormal(e.impulse, adhesion);
 	k.biasN.v[l]    = e.error;
