@@ -3,7 +3,7 @@
 find_package(GTest REQUIRED)
 find_package(ZLIB REQUIRED) # reads tests/data
 include(GoogleTest)
-file(GLOB contact_tests CONFIGURE_DEPENDS tests/contact/*.cpp tests/contact/space/*.cpp tests/neighbours/*.cpp)
+file(GLOB contact_tests CONFIGURE_DEPENDS tests/contact/*.cpp tests/contact/space/*.cpp tests/neighbours/*.cpp tests/packing/*.cpp)
 find_package(Eigen3 QUIET NO_MODULE)
 if(NOT TARGET Eigen3::Eigen)
     message(STATUS "Eigen not found (libeigen3-dev): without tests/contact/plane_bits_test.cpp")
@@ -11,7 +11,7 @@ if(NOT TARGET Eigen3::Eigen)
 endif()
 if(contact_tests)
     add_executable(contact_tests ${contact_tests})
-    target_link_libraries(contact_tests PRIVATE nonsmooth_contact nonsmooth_neighbours nonsmooth_slip nonsmooth_flags GTest::gtest GTest::gtest_main ZLIB::ZLIB)
+    target_link_libraries(contact_tests PRIVATE nonsmooth_contact nonsmooth_neighbours nonsmooth_slip nonsmooth_packing nonsmooth_flags GTest::gtest GTest::gtest_main ZLIB::ZLIB)
     target_include_directories(contact_tests PRIVATE tests/contact)
     if(TARGET Eigen3::Eigen) # YADE computes with it, and without its vectorisation
         target_link_libraries(contact_tests PRIVATE Eigen3::Eigen)

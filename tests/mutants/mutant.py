@@ -16,8 +16,8 @@ extern "C" {{
 int {SYMBOL} = [] {{ const char* number = std::getenv("NONSMOOTH_MUTANT"); return number ? std::atoi(number) : 0; }}();
 }}
 """
-# a module of Python links one of them alone; what links both takes the switch of the first
-LIBRARIES = ("pkg/contact/core", "pkg/contact/slip")
+# a module of Python links one of them alone; what links several takes the switch of the first
+LIBRARIES = ("pkg/contact/core", "pkg/contact/slip", "pkg/packing")
 
 
 class TableError(ValueError):

@@ -198,7 +198,7 @@ class NearTests:
         """The solver's tests for its own files; else files that the table names for this one, and those that name it
         more often than others do.
         """
-        if file.startswith(("pkg/contact/", "pkg/neighbours/")):
+        if file.startswith(("pkg/contact/", "pkg/neighbours/", "pkg/packing/")):
             return self._gtests() or []
         stem = Path(file).stem
         named = {

@@ -136,7 +136,8 @@ def pick(args, files, near, again, refused=()):
 
 def compiled(work, main_build, picked):
     """The build of a copy with the mutants of C++, and those of them that the compiler takes."""
-    targets = ["nonsmooth_gate", "nonsmooth_engines", "nonsmooth_contact_module", "nonsmooth_slip_module"]
+    targets = ["nonsmooth_gate", "nonsmooth_engines"]
+    targets += [f"nonsmooth_{name}_module" for name in ("contact", "slip", "packing")]
     while True:
         mutated_sources(work / "source", [m for _, m in picked])
         try:

@@ -98,9 +98,9 @@ def built(work, main_build, chosen):
         return main_build
     began = time.monotonic()
     mutated_sources(work / "source", MUTANTS)
-    targets = ["nonsmooth_gate", "nonsmooth_engines", "nonsmooth_contact_module", "nonsmooth_slip_module"] + [
-        "contact_tests"
-    ] * any(t.startswith("gtest:") for m in chosen for t in m.tests)
+    targets = ["nonsmooth_gate", "nonsmooth_engines"]
+    targets += [f"nonsmooth_{name}_module" for name in ("contact", "slip", "packing")]
+    targets += ["contact_tests"] * any(t.startswith("gtest:") for m in chosen for t in m.tests)
     build(work / "source", work / "build", main_build, targets)
     print(f"built the copy with the mutants of the C++, {time.monotonic() - began:.0f} s", flush=True)
     return work / "build"

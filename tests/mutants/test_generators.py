@@ -330,8 +330,8 @@ def test_a_copy_is_built_again_where_it_changed_also_back(tmp_path, monkeypatch)
     built with them.
     """
     checkout, copy = tmp_path / "checkout" / "pkg" / "contact", tmp_path / "copy"
-    for folder in ("core", "slip"):
-        (checkout / folder).mkdir(parents=True)
+    for folder in ("contact/core", "contact/slip", "packing"):
+        (checkout.parent / folder).mkdir(parents=True)
     for name in ("a.cpp", "b.cpp"):
         (checkout / name).write_text("int f() { return x + y; }\n")
         os.utime(checkout / name, (1e9, 1e9))
@@ -357,7 +357,7 @@ def test_every_library_that_a_python_module_links_has_the_switch():
     cmake, bindings = ((workplace.ROOT / name).read_text() for name in ("CMakeLists.txt", "cmake/Bindings.cmake"))
     folders = dict(re.findall(r"file\(GLOB \w+ CONFIGURE_DEPENDS (\S+)/\*\.cpp.*\)\nadd_library\((\w+) STATIC", cmake))
     linked = re.findall(r"^nonsmooth_python_module\(.* (\w+)\)$", bindings, re.M)
-    assert len(linked) == 2
+    assert len(linked) == 3
     assert {folder for folder, library in folders.items() if library in linked} == set(LIBRARIES)
 
 

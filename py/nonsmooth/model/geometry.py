@@ -33,7 +33,6 @@ __all__ = [
     "pieces",
     "sides",
     "straight",
-    "together",
     "uncovered",
 ]
 
@@ -231,16 +230,6 @@ def sides(line) -> tuple[Edges, Edges]:
 
     line = np.asarray(line, float)
     return of(line), of(line[::-1])
-
-
-def together(tables) -> Edges:
-    """Several tables of edges as one, in their order."""
-    return Edges(
-        *(
-            np.concatenate([getattr(t, name) for t in tables])
-            for name in ("start", "direction", "length", "convex_start", "convex_end")
-        )
-    )
 
 
 def area_inside(x, y, r, region) -> float:

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import numbers
-import sys
 from dataclasses import dataclass
 
 from ..errors import UserError
@@ -29,18 +28,12 @@ class Parameter:
 
 
 def _library():
-    beside = str(installation.modules())
-    if beside not in sys.path:  # outside YADE; the last place that is asked
-        sys.path.append(beside)
     try:
-        import _nonsmooth_slip
-    except ModuleNotFoundError as error:
-        if error.name != "_nonsmooth_slip":
-            raise
+        return installation.module("_nonsmooth_slip")
+    except installation.InstallationError:
         raise SlipError(
             "the laws of slip surfaces are not built; run scripts/setup.sh, and have build/python on the PYTHONPATH"
         ) from None
-    return _nonsmooth_slip
 
 
 def known():

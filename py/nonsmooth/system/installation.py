@@ -7,6 +7,8 @@ Within YADE it is the one that runs. A plain Python finds that of the checkout w
 
 from __future__ import annotations
 
+import importlib
+import importlib.util
 import os
 import shutil
 import sys
@@ -14,7 +16,7 @@ from pathlib import Path
 
 from ..errors import UserError
 
-__all__ = ["InstallationError", "command", "engines"]
+__all__ = ["InstallationError", "command", "engines", "file_of", "module"]
 
 _PACKAGE = Path(__file__).resolve().parents[1]
 _CHECKOUT = _PACKAGE.parents[1]
@@ -66,6 +68,33 @@ def engines() -> Path:
 def modules() -> Path:
     """The folder of the checkout's build in which modules stand that need no YADE."""
     return _prefix().parent / "python"
+
+
+def _look_beside():
+    """Outside YADE, which has them on the path, modules are looked for in the build as well, as the last place."""
+    beside = str(modules())
+    if beside not in sys.path:
+        sys.path.append(beside)
+
+
+def module(name):
+    """A module of this build that needs no YADE, by its name. Raises InstallationError where it is not built."""
+    _look_beside()
+    try:
+        return importlib.import_module(name)
+    except ModuleNotFoundError as error:
+        if error.name != name:
+            raise
+        raise InstallationError(
+            f"the module {name} is not built; run scripts/setup.sh, and have build/python on the PYTHONPATH"
+        ) from None
+
+
+def file_of(name) -> Path | None:
+    """The file of such a module, None where it is not built."""
+    _look_beside()
+    found = importlib.util.find_spec(name)
+    return Path(found.origin) if found else None
 
 
 def _prefix():

@@ -17,6 +17,7 @@ __all__ = ["digest", "engines_key", "hash_of", "key_of", "made_by", "making_key"
 
 HOME = Path(__file__).resolve().parents[1]  # of the package
 DATA = ("*.schema.yaml", "rocks.json", "*.j2")  # files of this package that its modules read
+COMPILED = ("_nonsmooth_packing",)  # modules of which the engines hold nothing (see engines_key)
 
 
 def key_of(plain) -> str:
@@ -133,16 +134,26 @@ def _closure(name):
 def made_by(function=None) -> dict:
     """What decides, besides input and engines, what a ``function`` or a module of this package makes (see
     :func:`module_of`): {file: hash} of the statements of its module and of all modules that this imports, directly or
-    not, and of the data that they read. Of one outside of this package, or None: of all that is in it.
+    not, of the data that they read, and by its name of what they call that is compiled. Of one outside of this package,
+    or None: of all that is in it.
     """
-    named = sorted(path.relative_to(HOME).as_posix() for path in _closure(module_of(function)))
-    return {file: hash_of(file) for file in named}
+    files = _closure(module_of(function))
+    named = sorted(path.relative_to(HOME).as_posix() for path in files)
+    return {file: hash_of(file) for file in (*named, *sorted(set().union(*map(_calls, files))))}
+
+
+@functools.cache
+def _calls(path) -> frozenset:
+    """The names of compiled modules (:data:`COMPILED`) that a file of this package asks installation.module for."""
+    calls = (node for node in ast.walk(_tree(path)) if isinstance(node, ast.Call)) if path.suffix == ".py" else ()
+    asked = [c.args[0] for c in calls if getattr(c.func, "attr", None) == "module" and c.args]
+    return frozenset(a.value for a in asked if isinstance(a, ast.Constant) and a.value in COMPILED)
 
 
 def hash_of(file) -> str | None:
     """What :func:`made_by` has now for a file of this package; None where it is not there."""
-    path = HOME / file
-    if not path.is_file():
+    path = installation.file_of(file) if file in COMPILED else HOME / file
+    if path is None or not path.is_file():
         return None
     return statements(path) if path.suffix == ".py" else digest(path)
 

@@ -384,7 +384,7 @@ def test_the_list_has_what_the_package_imports_and_the_set_up_installs_it():
     foreign = (
         imported
         - set(sys.stdlib_module_names)
-        - {"yade", "_nonsmooth_contact", "_nonsmooth_slip", "nonsmooth", "__main__"}
+        - {"yade", "_nonsmooth_contact", "_nonsmooth_slip", "_nonsmooth_packing", "nonsmooth", "__main__"}
     )
     assert foreign & {"numpy", "IPython"} and foreign <= {one.module for one in listed}
     assert requirements.remedy("yaml") == "apt install python3-yaml, or pip install PyYAML"

@@ -430,7 +430,15 @@ def test_every_imported_module_comes_from_a_package_that_is_installed(packages, 
         ]
     ).stdout.split()
     # tests/coverage/run.sh asks for coverage itself
-    imported, own = {}, {"yade", "nonsmooth", "_nonsmooth_contact", "_nonsmooth_slip", "__main__", "coverage"}
+    imported, own = {}, {
+        "yade",
+        "nonsmooth",
+        "_nonsmooth_packing",
+        "_nonsmooth_contact",
+        "_nonsmooth_slip",
+        "__main__",
+        "coverage",
+    }
     for folder in ("py", "scripts", "tests", "doc", "cmake"):
         for root, _, files in os.walk(os.path.join(ROOT, folder)):
             if "__init__.py" in files:

@@ -4,7 +4,6 @@ import dataclasses
 import math
 import sys
 from pathlib import Path
-from types import SimpleNamespace
 
 import numpy as np
 import pytest
@@ -14,7 +13,7 @@ sys.path.insert(0, str(Path(__file__).resolve().parents[3] / "py"))
 from nonsmooth import packing, similar  # noqa: E402
 from nonsmooth.errors import UserNote  # noqa: E402
 from nonsmooth.model import free_surface, geometry  # noqa: E402
-from nonsmooth.packing import Packing, PackingError, checks as packing_checks  # noqa: E402
+from nonsmooth.packing import Packing, PackingError, checks as packing_checks, relaxation  # noqa: E402
 from nonsmooth.section import FOLDER, load  # noqa: E402
 from nonsmooth.system.whole_files import WriteError  # noqa: E402
 
@@ -92,9 +91,15 @@ def test_a_packing_is_as_far_as_its_worst_overlap_has_fallen(worst, share):
         told.append(found)
         raise Stop
 
-    there = SimpleNamespace(x=np.zeros(2), r=np.ones(2), _neighbours=lambda: None, _forces=lambda: (0, 0, 0, worst))
+    class Disks:
+        def __len__(self):
+            return 2
+
+        def forces(self, squeezes):
+            return worst
+
     with pytest.raises(Stop):
-        packing._Relaxer.run(there, stop)
+        relaxation.relax(Disks(), packing.TARGET, None, stop)
     assert told == [pytest.approx(share, abs=1e-12)]  # rounding
 
 
@@ -130,7 +135,7 @@ def test_same_seed_same_bits_in_a_bent_region(bent):
 
 
 def test_too_dense(bent, monkeypatch):
-    monkeypatch.setattr("nonsmooth.packing.SWEEPS", 300)
+    monkeypatch.setattr(relaxation, "SWEEPS", 300)
     dense = dataclasses.replace(bent, disks=dataclasses.replace(bent.disks, packing_fraction=0.95))
     with pytest.raises(PackingError, match="lower disks.packing_fraction"):
         packing.pack(dense, 1)
@@ -399,7 +404,7 @@ def test_close_pairs_are_all_that_there_are():
     n = 150
     x, y, r = rng.uniform(0, 40, n), rng.uniform(0, 40, n), np.geomspace(0.1, 4.0, n)[rng.permutation(n)]
     for margin in (0.0, 0.5):
-        i, j = packing._close_pairs(x, y, r, margin)
+        i, j = relaxation.close_pairs(x, y, r, margin)
         a, b = np.triu_indices(n, 1)
         near = np.hypot(x[a] - x[b], y[a] - y[b]) < r[a] + r[b] + margin
         assert list(zip(i, j)) == list(zip(a[near], b[near])) and len(i) > 100
@@ -424,8 +429,7 @@ CORNER = [(0, 0), (10, 0), (10, 5), (5, 5), (5, 10), (0, 10)]  # the corner at (
 def test_edges_and_corners_push_by_hand(place, radius, pushes):
     table = geometry.edges(geometry.Polygon(CORNER))
     x, y, r = (np.array([v]) for v in (*place, radius))
-    disks, walls = packing._close_edges(x, y, r, 0.0, table)
-    overlap, nx, ny = packing._edge_overlaps(x, y, r, disks, walls, table)
+    _, _, overlap, nx, ny = relaxation.pushes(x, y, r, 0.0, table)
     found = sorted((o, a, b) for o, a, b in zip(overlap, nx, ny) if o > 1e-12)
     assert len(found) == len(pushes)
     for one, wanted in zip(found, sorted(pushes)):
@@ -435,11 +439,11 @@ def test_edges_and_corners_push_by_hand(place, radius, pushes):
 def test_edges_are_near_with_a_margin():
     table = geometry.edges(geometry.Polygon(CORNER))
     one = np.array([2.0]), np.array([1.0]), np.array([0.5])
-    assert len(packing._close_edges(*one, 0.4, table)[0]) == 0
-    disks, walls = packing._close_edges(*one, 0.6, table)
+    assert len(relaxation.pushes(*one, 0.4, table)[0]) == 0
+    disks, walls, *_ = relaxation.pushes(*one, 0.6, table)
     assert disks.tolist() == [0] and table.normal[walls[0]] == pytest.approx((0, 1))
     away = np.array([2.0]), np.array([-0.7]), np.array([0.5])  # out by more than a radius
-    assert len(packing._close_edges(*away, 0.1, table)[0]) == 0 < len(packing._close_edges(*away, 0.3, table)[0])
+    assert len(relaxation.pushes(*away, 0.1, table)[0]) == 0 < len(relaxation.pushes(*away, 0.3, table)[0])
 
 
 def test_a_box_lies_along_the_longest_edge():
@@ -473,17 +477,15 @@ def test_forces_of_overlapping_disks_by_hand(bent):
     """
     box = geometry.edges(geometry.Polygon([(-9, 0), (9, 0), (9, 9), (-9, 9)]))
     x, y, r = np.array([0.0, 1.08, 5.0]), np.array([0.9, 2.34, 5.0]), np.ones(3)
-    one = packing._Relaxer(x, y, r, np.zeros(3, int), [(box, None)], np.random.default_rng(1))
-    one._neighbours()
-    fx, fy, squeeze, _ = one._forces()
-    assert fx == pytest.approx([-0.12, 0.12, 0], abs=1e-12) and fy == pytest.approx([-0.16 + 0.2, 0.16, 0], abs=1e-12)
-    assert squeeze == pytest.approx([0.2 + 0.2, 0.2, 0], abs=1e-12)
+    one = relaxation.disks(x, y, r, np.zeros(3, int), [(box, None)])
+    assert one.forces(True) == pytest.approx(0.2, abs=1e-12)  # of the mean diameter of 2 m
+    assert one.force_x == pytest.approx([-0.12, 0.12, 0], abs=1e-12)
+    assert one.force_y == pytest.approx([-0.16 + 0.2, 0.16, 0], abs=1e-12)
+    assert one.squeeze == pytest.approx([0.2 + 0.2, 0.2, 0], abs=1e-12)
     # an edge that acts on other disks does not push this one
-    other = packing._Relaxer(
-        x, y, r, np.zeros(3, int), [(box, np.array([False, True, True]))], np.random.default_rng(1)
-    )
-    other._neighbours()
-    assert other._forces()[1] == pytest.approx([-0.16, 0.16, 0], abs=1e-12)
+    other = relaxation.disks(x, y, r, np.zeros(3, int), [(box, np.array([False, True, True]))])
+    other.forces(True)
+    assert other.force_y == pytest.approx([-0.16, 0.16, 0], abs=1e-12)
 
 
 def test_disks_move_alike_along_both_axes(monkeypatch):
@@ -491,36 +493,40 @@ def test_disks_move_alike_along_both_axes(monkeypatch):
     dice = np.random.default_rng(4)
     x, y = dice.uniform(1.0, 9.0, (2, 20))
     r, table = dice.uniform(0.7, 1.3, 20), geometry.edges(geometry.Polygon([(0, 0), (10, 0), (10, 10), (0, 10)]))
-    monkeypatch.setattr(packing, "SWEEPS", 20)
+    monkeypatch.setattr(relaxation, "SWEEPS", 20)
     found = []
     for places in ((x, y), (y, x)):
-        one = packing._Relaxer(*places, r.copy(), np.zeros(20, int), [(table, None)], np.random.default_rng(1))
-        one.run()
+        one = relaxation.disks(*places, r, np.zeros(20, int), [(table, None)])
+        relaxation.relax(one, packing.TARGET, np.random.default_rng(1))
         found.append((one.x, one.y))
     assert np.hypot(found[0][0] - x, found[0][1] - y).max() > 0.3
     assert found[0][0] == pytest.approx(found[1][1], abs=1e-9) and found[0][1] == pytest.approx(found[1][0], abs=1e-9)
 
 
-def test_the_more_squeezed_larger_one_changes_places():
-    """Radii 1, 1.5, 3 and 4 m, in pairs of like size: the first pair changes places, since its larger disk is squeezed
-    by more than it is larger; the other one is of two layers.
+@pytest.mark.parametrize(
+    "overlap, layer, changed", [(0.6, (0, 0), True), (0.4, (0, 0), False), (0.6, (0, 1), False), (-0.6, (0, 0), False)]
+)
+def test_the_more_squeezed_larger_one_changes_places(overlap, layer, changed):
+    """Radii 1 and 1.5 m, the larger one (where the overlap is negative the smaller one) that far in the floor of a box,
+    which counts twice: they change places where it is squeezed by more than it is larger, in one layer alone.
     """
+    box, by = geometry.edges(geometry.Polygon([(-9, 0), (9, 0), (9, 99), (-9, 99)])), 0.5 * abs(overlap)
+    at = (9.0, 1.5 - by) if overlap > 0 else (1.0 - by, 9.0)
+    one = relaxation.disks(np.array([-4.0, 4.0]), np.array(at), np.array([1.0, 1.5]), np.array(layer), [(box, None)])
+    one.forces(True)
+    assert one.squeeze == pytest.approx([0, overlap] if overlap > 0 else [-overlap, 0], abs=1e-12)
+    assert one.exchange(0, 1) == changed
+    assert one.r.tolist() == ([1.5, 1.0] if changed else [1.0, 1.5])
 
-    class Dice:
-        def __init__(self):
-            self.left = [1, 0]
 
-        def integers(self, low, high):
-            return self.left.pop(0)
-
-    for squeeze, changed in (((0.0, 0.6, 0, 9), True), ((0.0, 0.4, 0, 9), False), ((0.6, 0.0, 0, 9), False)):
-        one = packing._Relaxer(
-            np.zeros(4), np.zeros(4), np.array([1.0, 1.5, 3.0, 4.0]), np.array([0, 0, 0, 1]), [(None, None)], Dice()
-        )
-        one.x0 = one.x
-        one._swap(np.array(squeeze))
-        assert one.r.tolist() == ([1.5, 1.0, 3.0, 4.0] if changed else [1.0, 1.5, 3.0, 4.0])
-        assert (one.x0 is None) == changed  # neighbours are sought anew
+def test_every_other_stretch_of_sizes_is_compared():
+    """Eight disks, from 1 to 1.07 m, the larger ones in the floor: from the second place on, and two places apart."""
+    box = geometry.edges(geometry.Polygon([(-99, 0), (99, 0), (99, 99), (-99, 99)]))
+    r = 1 + 0.01 * np.arange(8)
+    one = relaxation.disks(10.0 * np.arange(8), r - 0.1 * np.arange(8), r, np.zeros(8, int), [(box, None)])
+    one.forces(True)
+    assert one.exchange(1, 2) == 3  # places 1 and 3, 2 and 4, 5 and 7
+    assert one.r.tolist() == r[[0, 3, 4, 1, 2, 7, 6, 5]].tolist()
 
 
 def test_mirrored_and_similar_sections_have_the_mirrored_and_similar_disks(bent):

@@ -8,7 +8,7 @@ from yade.nonsmooth import packing, section
 from yade.nonsmooth.heaps import column, preparation
 from yade.nonsmooth.laboratory import pressing
 from yade.nonsmooth.studies.slope import slope_packing, states
-from yade.nonsmooth.system import cache, keys
+from yade.nonsmooth.system import cache, installation, keys
 
 SOURCE = '''
 """Squares."""
@@ -86,6 +86,20 @@ def test_other_code_or_engines_make_their_own(cache, monkeypatch):
     assert (path() == before) == (cache == "packings")  # which no engine makes
 
 
+@pytest.mark.parametrize("cache", CACHES)
+def test_another_build_of_what_packs_makes_its_own(cache, monkeypatch):
+    """By its bytes: it is no part of the engines."""
+    module, path = CACHES[cache]
+    file, whole, before = installation.file_of("_nonsmooth_packing"), keys.digest, path()
+    assert file.is_file() and keys.made_by(module.__name__)["_nonsmooth_packing"] == whole(file)
+    monkeypatch.setattr(keys, "digest", lambda p: "other" if p == file else whole(p))
+    assert path() != before
+
+
+def test_what_packs_is_behind_nothing_else():
+    assert "_nonsmooth_packing" not in keys.made_by("measure.statistics") and "_nonsmooth_packing" in keys.made_by(None)
+
+
 def test_figures_are_behind_no_packing():
     for cache in ("packings", "samples", "slopes", "heaps"):
         assert not {f for f in keys.made_by(CACHES[cache][0].__name__) if f.startswith(("figures/", "report/"))}
@@ -99,13 +113,13 @@ def package(tmp_path, monkeypatch):
         for name, text in files.items():
             (tmp_path / name).parent.mkdir(parents=True, exist_ok=True)
             (tmp_path / name).write_text(text)
-        for cached in (keys._data, keys._asks_for, keys._closure):
+        for cached in (keys._data, keys._asks_for, keys._closure, keys._calls):
             cached.cache_clear()
 
     monkeypatch.setattr(keys, "HOME", tmp_path)
     yield write
     monkeypatch.undo()
-    for cached in (keys._data, keys._asks_for, keys._closure):
+    for cached in (keys._data, keys._asks_for, keys._closure, keys._calls):
         cached.cache_clear()
 
 

@@ -12,6 +12,7 @@ from slope_scenes import SMALL
 from yade import Body, O, Sphere
 from yade.nonsmooth import packing, section, similar, tables
 from yade.nonsmooth.model import free_surface, geometry
+from yade.nonsmooth.packing import relaxation
 from yade.nonsmooth.studies.slope import slope_packing
 from yade.wrapper import NewtonIntegrator
 
@@ -38,7 +39,7 @@ def made():
 
 def touching(packed, gap=1e-3):
     """Pairs with gaps below a share of their mean diameter, and disks with fewer than two of them."""
-    i, j = packing._close_pairs(packed.x, packed.y, packed.r, 0.02 * packed.r.max())
+    i, j = relaxation.close_pairs(packed.x, packed.y, packed.r, 0.02 * packed.r.max())
     near = geometry.distance(packed.x[i] - packed.x[j], packed.y[i] - packed.y[j]) < (packed.r[i] + packed.r[j]) * (
         1 + gap
     )
