@@ -8,6 +8,7 @@ import math
 
 import numpy as np
 from matplotlib.collections import EllipseCollection
+from matplotlib.ticker import MaxNLocator
 
 from ..measure import sphere_laws as laws
 from ..records import RecordsError
@@ -66,6 +67,7 @@ def course(seen, run, path=None, pdf=False):
         ax.set_xlim(-reach, reach)
         ax.set_ylim(low - 0.5 * size, high + 0.5 * size)
         ax.set_aspect("equal")
+        ax.xaxis.set_major_locator(MaxNLocator(5, prune="both"))
         ax.set_title(f"{p.time_s / unit:.1f} T", loc="right", fontsize=9, pad=2)
     for ax in axes[len(seen) :]:
         ax.set_visible(False)
@@ -100,7 +102,7 @@ def _log_axes(ax):
     for axis in (ax.xaxis, ax.yaxis):
         axis.set_major_formatter(lambda v, _: f"{v:g}")
         axis.set_minor_formatter("")
-    ticks = (0.1, 0.2, 0.5, 1, 2, 5, 10, 20, 50)
+    ticks = (0.05, 0.1, 0.2, 0.3, 0.5, 0.7, 1, 2, 3, 5, 10, 20, 50)
     for axis, ends in ((ax.set_xticks, ax.get_xlim()), (ax.set_yticks, ax.get_ylim())):
         axis([t for t in ticks if ends[0] <= t <= ends[1]])
     ax.grid(color="#e3e3e3", lw=0.7, which="major")
@@ -131,9 +133,13 @@ def runout(groups, path=None, pdf=False):
     for ax, (name, title, label, published) in zip(fig.subplots(1, 2), panels):
         every = [group["aspect"]["mean"] for group in groups]
         low, high = 0.85 * min(every), 1.15 * max(every)
-        a = np.geomspace(low, high, 300)
         for law, colour, dash in zip(published, (LINES["orange"], LINES["green"]), ("--", ":")):
-            ax.plot(a, law(a), color=colour, ls=dash, label=law.source)
+            named = law.source  # of the first of its lines that is drawn
+            for k, ends in enumerate(((low, min(law.change, high)), (max(law.change, low), high))):
+                if ends[0] < ends[1]:
+                    c, n = law.pieces[k]
+                    ax.plot(ends, [c * a**n for a in ends], color=colour, ls=dash, label=named)
+                    named = None
         for world, colour, marker in zip(worlds, (LINES["blue"], LINES["purple"]), MARKERS):
             mine = [group for group in groups if group["world"] == world]
             (x, dx), (y, dy) = _bars(mine, "aspect"), _bars(mine, name)
@@ -150,6 +156,10 @@ def runout(groups, path=None, pdf=False):
                 capsize=2,
                 label=f"{world} spheres",
             )
+            if name == "runout_rel" and "runout_95_rel" in mine[0]:
+                y, _ = _bars(mine, "runout_95_rel")
+                mass = f"{world} spheres, 95 % of the mass"
+                ax.plot(x, y, ls="none", marker="x", ms=4, color=colour, alpha=0.7, label=mass)
         _log_axes(ax)
         ax.set_xlabel("aspect ratio $a=h_0/r_0$")
         ax.set_ylabel(label)

@@ -64,11 +64,13 @@ def group(world="hard", asked=(), **values):
 
 
 def test_run_outs_stand_beside_the_published_laws():
-    groups = [group(world, aspect=(a, 0.1), runout_rel=(a, 0.2), final_height_rel=(0.7, None)) for a, world in ((1.0, "hard"), (4.0, "hard"), (2.0, "soft"))]  # fmt: skip
+    groups = [group(world, aspect=(a, 0.1), runout_rel=(a, 0.2), runout_95_rel=(a + 0.5, 0.1), final_height_rel=(0.7, None)) for a, world in ((1.0, "hard"), (4.0, "hard"), (2.0, "soft"))]  # fmt: skip
     left, right = spheres.runout(groups).axes
-    law = drawn.points(drawn.line(left, "Lube et al. (2004), experiments"))
-    for a, y in law[::37]:
-        assert y == pytest.approx(1.24 * a if a < 1.7 else 1.6 * math.sqrt(a), rel=1e-12)
+    # each law in two pieces, of which the first has the name
+    below = drawn.points(drawn.line(left, "Lube et al. (2004), experiments"))
+    assert below[-1] == pytest.approx([1.7, 1.24 * 1.7]) and below[0] == pytest.approx([0.85, 1.24 * 0.85])
+    above = drawn.points(left.lines[list(left.lines).index(drawn.line(left, "Lube et al. (2004), experiments")) + 1])
+    assert above == pytest.approx(np.array([[1.7, 1.6 * math.sqrt(1.7)], [4.6, 1.6 * math.sqrt(4.6)]]))
     bars = {one.get_label(): one for one in left.containers}
     assert drawn.points(bars["hard spheres"].lines[0]).tolist() == [[1, 1], [4, 4]]
     assert drawn.points(bars["soft spheres"].lines[0]).tolist() == [[2, 2]]
@@ -77,6 +79,9 @@ def test_run_outs_stand_beside_the_published_laws():
     lows, highs = (drawn.points(cap)[0] for cap in bars["hard spheres"].lines[1][2:])
     assert (lows[1], highs[1]) == pytest.approx((0.8, 1.2))
     assert (left.get_xscale(), right.get_yscale()) == ("log", "log")
+    assert (left.get_ylabel(), right.get_ylabel()) == (r"$(r_\infty-r_0)/r_0$", r"$h_\infty/r_0$")
+    mass = drawn.points(drawn.line(left, "hard spheres, 95 % of the mass"))
+    assert mass.tolist() == [[1, 1.5], [4, 4.5]]
 
 
 def test_what_left_hoppers_and_beverloo():

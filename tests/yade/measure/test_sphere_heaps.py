@@ -116,6 +116,12 @@ def test_the_surface_of_a_half_filled_drum(angle):
     assert measures.tilt(moved, r, centre=(3.0, -2.0)) == pytest.approx(measures.tilt(places, r), abs=1e-9)
 
 
+def test_a_large_sphere_weighs_more_than_a_small_one():
+    # radii 1 and 2: eight times the weight below the axis, so the centre is eight ninths of the way down
+    places = np.array([[9.0, 0, 0], [0, 0, -9.0]])
+    assert measures.tilt(places, np.array([1.0, 2.0])) == pytest.approx(math.degrees(math.atan(1 / 8)), rel=1e-12)
+
+
 def test_a_drum_with_two_strips_has_no_surface():
     assert math.isnan(measures.tilt_of_surface(np.array([[0.1, 0, 0], [1.2, 0, 0]]), np.full(2, 0.5), 8.0))
 

@@ -92,7 +92,7 @@ def test_a_packing_settles_and_the_floor_bears_it():
         (lambda: FrictMat(density=0), dict(density=2500)),
         (
             lambda: ViscElMat(frictionAngle=0.2, en=0.6, et=0.3, tc=1e-3, mR=0.05),
-            dict(restitution=0.6, rollingFriction=0.025),  # a torque mR N is μ_r ℓ N, with ℓ = 2 m below
+            dict(restitution=0.6, rollingFriction=0.0125),  # a torque mR N is μ_r ℓ N, with ℓ = 4 m below
         ),
         (
             lambda: CohFrictMat(
@@ -112,7 +112,7 @@ def test_a_packing_settles_and_the_floor_bears_it():
     ),
 )
 def test_a_material_keeps_its_strengths(soft, expected):
-    hard, told = strengths.hard_material(soft(), diameter=2.0)
+    hard, told = strengths.hard_material(soft(), diameter=4.0)
     assert isinstance(hard, NscdMat)
     for name, value in expected.items():
         assert getattr(hard, name) == pytest.approx(value, rel=1e-12), name
@@ -210,6 +210,19 @@ def test_pairs_of_materials_keep_their_values():
     O.run(100, True)
     slowed = [2 - O.bodies[k].state.vel[0] for k in (1, 2)]
     assert slowed == pytest.approx([math.tan(0.1), math.tan(0.5)], rel=1e-4)  # μ g t, 1 m/s
+
+
+def test_a_pair_without_values_keeps_those_of_its_materials():
+    """Two spheres that meet, with values for each of them and the floor alone: none of these is theirs."""
+    one, other, floor_stuff = (FrictMat(frictionAngle=0.5, density=2000, label=name) for name in ("a", "b", "floor"))
+    O.materials.append([one, other, floor_stuff])
+    matches = ((0, 2, 0.9), (1, 2, 0.3))
+    falling((one, other), floor_stuff, lambda: Ip2_FrictMat_FrictMat_MindlinPhys(en=MatchMaker(matches=matches)))
+    for k, side in ((1, -1), (2, 1)):
+        O.bodies[k].state.pos, O.bodies[k].state.vel = (0.51 * side, 0, 9), (-side, 0, 0)
+    harden(O, step=1e-3)
+    O.run(30, True)
+    assert [O.bodies[k].state.vel[0] for k in (1, 2)] == pytest.approx([0, 0], abs=1e-5)
 
 
 def test_pairs_of_a_material_that_comes_later():
@@ -332,11 +345,11 @@ def wear(stuff):
 
 
 def wedge(room):
-    """A sphere of 0.5 m between two boxes that leave it ``room`` on each side of its centre."""
+    """A sphere of 0.5 m between two boxes, both turned, that leave it ``room`` on each side of its centre."""
     for side in (-1, 1):
-        O.bodies.append(
-            box((50 + side * (room + 1), 0, 0), (1, 5, 5), fixed=True, orientation=Quaternion((1, 0, 0), 0.3))
-        )
+        way = side * (room + 1)
+        place = (50 + way * math.cos(0.3), way * math.sin(0.3), 0)
+        O.bodies.append(box(place, (1, 5, 5), fixed=True, orientation=Quaternion((0, 0, 1), 0.3)))
     O.bodies.append(sphere((50, 0, 0), 0.5))
 
 

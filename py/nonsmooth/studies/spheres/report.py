@@ -23,6 +23,7 @@ VALUES = {
     "column": (
         ("aspect", 2, "a"),
         ("runout_rel", 2, "run-out"),
+        ("runout_95_rel", 2, "of 95 % of the mass"),
         ("final_height_rel", 2, "height"),
         ("repose_deg", 1, "angle [°]"),
     ),
