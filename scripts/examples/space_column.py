@@ -33,7 +33,8 @@ rock = O.materials.append(
         momentRotationLaw=True, etaRoll=2 * table.rolling, etaTwist=0,
     )
 )
-O.bodies.append(utils.wall(0, axis=2, sense=1, material=rock))
+# a box, since YADE's law with rolling resistance has no contacts with walls
+O.bodies.append(utils.box((0, 0, -1), (50, 50, 1), fixed=True, material=rock))
 height = table.aspect * RADIUS
 tube = O.bodies.append(
     geom.facetCylinder((0, 0, 1.5 * height), RADIUS, 3 * height + 8 * mean, segmentsNumber=24, wallMask=4, material=rock)
@@ -50,11 +51,11 @@ for k in range(count):
 
 O.engines = [
     ForceResetter(),
-    InsertionSortCollider([Bo1_Sphere_Aabb(), Bo1_Facet_Aabb(), Bo1_Wall_Aabb()]),
+    InsertionSortCollider([Bo1_Sphere_Aabb(), Bo1_Facet_Aabb(), Bo1_Box_Aabb()]),
     InteractionLoop(
-        [Ig2_Sphere_Sphere_ScGeom6D(), Ig2_Facet_Sphere_ScGeom6D(), Ig2_Wall_Sphere_ScGeom()],
+        [Ig2_Sphere_Sphere_ScGeom6D(), Ig2_Facet_Sphere_ScGeom6D(), Ig2_Box_Sphere_ScGeom6D()],
         [Ip2_CohFrictMat_CohFrictMat_CohFrictPhys()],
-        [Law2_ScGeom6D_CohFrictPhys_CohesionMoment(always_use_moment_law=True)],
+        [Law2_ScGeom6D_CohFrictPhys_CohesionMoment(always_use_moment_law=True, useIncrementalForm=True)],
     ),
     NewtonIntegrator(damping=0.1 if table.soft else 0, gravity=(0, 0, -9.81)),
 ]

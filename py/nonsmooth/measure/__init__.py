@@ -26,8 +26,10 @@ Of tests and heaps:
 * :mod:`.weakest_cut`: what the bonds of a sample bear in tension at most
 * :mod:`.fluctuations`, :mod:`.cycles`: how the stress fluctuates, and its rises and drops
 * :mod:`.heap`: front, surface, angle of repose and overlaps from places alone
+* :mod:`.sphere_heaps`: the same of spheres in space, the surface in a drum, the rate out of a hopper
 * :mod:`.velocity_profiles`: speed against height in a mass that spreads, and what of it rests
 * :mod:`.power_laws`: published laws of runout and height, and fitted exponents
+* :mod:`.sphere_laws`: published laws of round columns in space
 
 Of several runs:
 

@@ -18,6 +18,7 @@ from . import (
     solver,
     space,
     space_solver,
+    spheres,
     state,
     walls,
     water,
@@ -27,6 +28,7 @@ MUTANTS = (
     law.MUTANTS
     + solver.MUTANTS
     + space_solver.MUTANTS
+    + spheres.MUTANTS
     + plane.MUTANTS
     + engines.MUTANTS
     + between.MUTANTS

@@ -656,3 +656,13 @@ def test_a_shaken_disk_slides_as_newmarks_block():
     disk, block = (float(one) for one in re.findall(r"slid\w* (\S+) m", done.stdout))
     # steps of 2 ms begin and end a slide a step late at most, and three digits are printed
     assert disk == pytest.approx(block, rel=3e-3) and block > 0.5
+
+
+@pytest.mark.parametrize("soft", (True, False))
+def test_a_round_column_spreads_with_springs_and_without(tmp_path, soft):
+    """Sixty spheres: less high and wider than the tube, by more than a grain's share of a radius of three grains."""
+    done = shell.example("space_column.py", tmp_path, aspect=0.6, size=3.0, soft=soft, seconds=0.5, young=1e6)
+    assert done.returncode == 0, done.stderr
+    (high,) = re.findall(r"column (\S+) radii high", done.stdout)
+    ((runout, left),) = re.findall(r"run-out \(r - r0\)/r0 = (\S+), height left h/r0 = (\S+)", done.stdout)
+    assert 0.1 < float(runout) < 2 and 0.2 < float(left) < float(high) < 3

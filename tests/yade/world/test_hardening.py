@@ -7,10 +7,10 @@ import subprocess
 import pytest
 from shell import SCRIPTS
 from yade import O, geom
-from yade.minieigenHP import Vector3
+from yade.minieigenHP import Quaternion, Vector3
 from yade.nonsmooth import harden
 from yade.nonsmooth.world.hardening import HardenError, lists, steps, strengths
-from yade.utils import PWaveTimeStep, box, facet, sphere, wall
+from yade.utils import PWaveTimeStep, box, createInteraction, facet, sphere, wall
 from yade.wrapper import (
     Bo1_Box_Aabb,
     Bo1_Facet_Aabb,
@@ -23,13 +23,17 @@ from yade.wrapper import (
     Ig2_Box_Sphere_ScGeom,
     Ig2_Facet_Sphere_ScGeom,
     Ig2_Sphere_Sphere_ScGeom,
+    Ig2_Sphere_Sphere_ScGeom6D,
     InsertionSortCollider,
     InteractionLoop,
+    Ip2_CohFrictMat_CohFrictMat_CohFrictPhys,
     Ip2_FrictMat_FrictMat_FrictPhys,
     Ip2_FrictMat_FrictMat_MindlinPhys,
     JCFpmMat,
+    Law2_ScGeom6D_CohFrictPhys_CohesionMoment,
     Law2_ScGeom_CpmPhys_Cpm,
     Law2_ScGeom_FrictPhys_CundallStrack,
+    MatchMaker,
     NewtonIntegrator,
     NscdMat,
     PlanarGridCollider,
@@ -88,7 +92,7 @@ def test_a_packing_settles_and_the_floor_bears_it():
         (lambda: FrictMat(density=0), dict(density=2500)),
         (
             lambda: ViscElMat(frictionAngle=0.2, en=0.6, et=0.3, tc=1e-3, mR=0.05),
-            dict(restitution=0.6, rollingFriction=0.025),
+            dict(restitution=0.6, rollingFriction=0.0125),  # a torque mR N is μ_r ℓ N, with ℓ = 4 m below
         ),
         (
             lambda: CohFrictMat(
@@ -108,7 +112,7 @@ def test_a_packing_settles_and_the_floor_bears_it():
     ),
 )
 def test_a_material_keeps_its_strengths(soft, expected):
-    hard, told = strengths.hard_material(soft())
+    hard, told = strengths.hard_material(soft(), diameter=4.0)
     assert isinstance(hard, NscdMat)
     for name, value in expected.items():
         assert getattr(hard, name) == pytest.approx(value, rel=1e-12), name
@@ -131,6 +135,138 @@ def test_restitution_comes_from_the_functor_or_the_caller():
     box_of_spheres()
     harden(O, restitution=0.2)
     assert {b.material.restitution for b in O.bodies} == {0.2}
+
+
+@pytest.mark.parametrize("damping", (0.0, 0.4))
+def test_restitution_may_be_what_damping_leaves_of_springs(damping):
+    """√((1 − λ)/(1 + λ)), and 1 where nothing takes energy; what functors and materials say holds before it."""
+    box_of_spheres()
+    O.engines[3].damping = damping
+    harden(O, restitution="damping")
+    assert {b.material.restitution for b in O.bodies} == {math.sqrt((1 - damping) / (1 + damping))}
+    O.reset()
+    box_of_spheres()
+    O.engines[2].physDispatcher.functors = [Ip2_FrictMat_FrictMat_MindlinPhys(en=0.7)]
+    harden(O, restitution="damping")
+    assert {b.material.restitution for b in O.bodies} == {0.7}
+
+
+def test_a_spring_and_its_rigid_contact_bounce_alike():
+    """One sphere on the floor, with half of the damping that stops it: the same speed afterwards."""
+    speeds = {}
+    for hard in (False, True):
+        O.reset()
+        stuff = FrictMat(young=1e9, frictionAngle=0.3, density=2000)
+        O.materials.append(stuff)
+        O.bodies.append(box((0, 0, -1), (5, 5, 1), fixed=True, material=stuff))
+        ball = O.bodies[O.bodies.append(sphere((0, 0, 0.502), 0.5, material=stuff))]
+        ball.state.vel = (0, 0, -1)
+        O.engines = soft_engines(gravity=(0, 0, 0))
+        O.engines[3].damping = 0.2
+        O.dt = 0.01 * PWaveTimeStep()
+        if hard:
+            harden(O, step=1e-3, restitution="damping")
+        while ball.state.vel[2] <= 0 or any(i.isReal and not hard for i in O.interactions):
+            O.run(1, True)
+        speeds[hard] = ball.state.vel[2]
+    # the first step of the spring is not damped as the others are
+    assert speeds[True] == pytest.approx(math.sqrt(0.8 / 1.2), rel=1e-6)  # the tolerance of the solve
+    assert speeds[False] == pytest.approx(speeds[True], rel=0.01)
+
+
+def falling(stuffs, floor_stuff, functor):
+    """Spheres of materials, 3 m apart, that fall on a floor at 1 m/s; the engines with a functor."""
+    for stuff in (*stuffs, floor_stuff):
+        if stuff.id < 0:
+            O.materials.append(stuff)
+    O.bodies.append(box((0, 0, -1), (50, 50, 1), fixed=True, material=floor_stuff))
+    for k, stuff in enumerate(stuffs):
+        ball = O.bodies[O.bodies.append(sphere((3 * k, 0, 0.51), 0.5, material=stuff))]
+        ball.state.vel = (0, 0, -1)
+    O.engines = soft_engines(gravity=(0, 0, 0))
+    O.engines[2].physDispatcher.functors = [functor()]
+    O.dt = 1e-5
+
+
+def test_pairs_of_materials_keep_their_values():
+    """A MatchMaker's restitution and friction of two materials, and of one with itself, are those of their contacts."""
+    one, other, floor_stuff = (FrictMat(frictionAngle=0.5, density=2000, label=name) for name in ("a", "b", "floor"))
+    falling(
+        (one, other, floor_stuff),
+        floor_stuff,
+        lambda: Ip2_FrictMat_FrictMat_MindlinPhys(
+            en=MatchMaker(matches=((one.id, floor_stuff.id, 0.9), (floor_stuff.id, other.id, 0.3), (floor_stuff.id, floor_stuff.id, 0.6))),
+            frictAngle=MatchMaker(matches=((one.id, floor_stuff.id, 0.1),)),
+        ),
+    )  # fmt: skip
+    told = harden(O, step=1e-3)
+    O.run(30, True)
+    assert [O.bodies[k].state.vel[2] for k in (1, 2, 3)] == pytest.approx([0.9, 0.3, 0.6], rel=1e-5)
+    assert "materials #0 with #2" in str(told) and "restitution = 0.9" in str(told)
+    for k in (1, 2):  # pressed down, they slide: friction of the pair, and the materials' own
+        O.bodies[k].state.vel, O.bodies[k].state.pos = (2, 0, 0), (3 * k, 0, 0.5)
+        O.bodies[k].state.angVel, O.bodies[k].state.blockedDOFs = (0, 0, 0), "XYZ"
+    O.engines[-1].gravity = (0, 0, -10)
+    O.run(100, True)
+    slowed = [2 - O.bodies[k].state.vel[0] for k in (1, 2)]
+    assert slowed == pytest.approx([math.tan(0.1), math.tan(0.5)], rel=1e-4)  # μ g t, 1 m/s
+
+
+def test_a_pair_without_values_keeps_those_of_its_materials():
+    """Two spheres that meet, with values for each of them and the floor alone: none of these is theirs."""
+    one, other, floor_stuff = (FrictMat(frictionAngle=0.5, density=2000, label=name) for name in ("a", "b", "floor"))
+    O.materials.append([one, other, floor_stuff])
+    matches = ((0, 2, 0.9), (1, 2, 0.3))
+    falling((one, other), floor_stuff, lambda: Ip2_FrictMat_FrictMat_MindlinPhys(en=MatchMaker(matches=matches)))
+    for k, side in ((1, -1), (2, 1)):
+        O.bodies[k].state.pos, O.bodies[k].state.vel = (0.51 * side, 0, 9), (-side, 0, 0)
+    harden(O, step=1e-3)
+    O.run(30, True)
+    assert [O.bodies[k].state.vel[0] for k in (1, 2)] == pytest.approx([0, 0], abs=1e-5)
+
+
+def test_pairs_of_a_material_that_comes_later():
+    shots, steel = FrictMat(label="shots", density=2000), FrictMat(label="steel")
+    O.materials.append(shots)
+    falling((), steel, lambda: Ip2_FrictMat_FrictMat_MindlinPhys(en=MatchMaker(matches=((shots.id, 1, 0.4),))))
+    told = harden(O, step=1e-3)
+    ball = O.bodies[O.bodies.append(sphere((0, 0, 0.51), 0.5, material=shots))]
+    ball.state.vel = (0, 0, -1)
+    told.take(O.bodies)
+    O.run(30, True)
+    assert ball.state.vel[2] == pytest.approx(0.4, rel=1e-5)
+
+
+def test_spheres_that_pass_through_each_other_still_do():
+    """Where a script's loop has no contacts of spheres with spheres."""
+    box_of_spheres()
+    O.engines[2].geomDispatcher.functors = [Ig2_Facet_Sphere_ScGeom(), Ig2_Box_Sphere_ScGeom()]
+    for k, speed in ((-1, -1), (-2, 1)):
+        O.bodies[k].state.pos, O.bodies[k].state.vel = (0.3 * speed, 0, -0.5), (-speed, 0, 0)
+    O.engines[3].gravity = (0, 0, 0)
+    told = harden(O, step=1e-3)
+    O.run(500, True)
+    assert [O.bodies[k].state.pos[0] for k in (-1, -2)] == pytest.approx([0.2, -0.2], rel=1e-6)
+    assert "no contacts of spheres with spheres" in str(told)
+
+
+def test_a_belt_drags_and_stays():
+    """A wall outside of NewtonIntegrator's mask is not moved by its velocity, which acts all the same."""
+    stuff = FrictMat(frictionAngle=0.4, density=2000)
+    O.materials.append(stuff)
+    belt = O.bodies[O.bodies.append(facet([(-50, -50, 0), (50, -50, 0), (0, 90, 0)], material=stuff))]
+    belt.state.vel, place = (0, 0.2, 0), Vector3(belt.state.pos)
+    ball = O.bodies[O.bodies.append(sphere((0, 0, 0.5), 0.5, material=stuff))]
+    ball.mask, ball.state.blockedDOFs = 3, "XYZ"
+    O.engines = soft_engines()
+    O.engines[3].mask = 2
+    O.dt = 1e-4
+    told = harden(O, step=1e-3)
+    O.run(1000, True)
+    assert belt.state.pos == place and "as belts" in str(told)
+    assert ball.state.vel[1] == pytest.approx(0.2, rel=1e-3)
+    # it slides until it is as fast, 0.2/(μ g), and then goes along
+    assert ball.state.pos[1] == pytest.approx(0.2 - 0.5 * 0.2 * 0.2 / (math.tan(0.4) * 9.81), rel=0.01)
 
 
 def test_the_step_is_a_tenth_of_the_smallest_diameter_at_the_greatest_speed():
@@ -202,6 +338,45 @@ def unchanged(state):
     return [type(b.material).__name__ for b in O.bodies], [type(e).__name__ for e in O.engines], O.dt
 
 
+def wear(stuff):
+    """Gives a sphere another material."""
+    O.materials.append(stuff)
+    O.bodies[-1].material = stuff
+
+
+def wedge(room):
+    """A sphere of 0.5 m between two boxes, both turned, that leave it ``room`` on each side of its centre."""
+    for side in (-1, 1):
+        way = side * (room + 1)
+        place = (50 + way * math.cos(0.3), way * math.sin(0.3), 0)
+        O.bodies.append(box(place, (1, 5, 5), fixed=True, orientation=Quaternion((0, 0, 1), 0.3)))
+    O.bodies.append(sphere((50, 0, 0), 0.5))
+
+
+def tie(gap):
+    """A sphere that cohesion holds at a distance."""
+    stuff = CohFrictMat(isCohesive=True, normalCohesion=1e6, shearCohesion=1e6)
+    O.materials.append(stuff)
+    one = O.bodies[12]
+    one.material = stuff
+    O.bodies.append(sphere(one.state.pos + Vector3(0.9 + gap, 0, 0), 0.45, material=stuff))
+    O.engines[2].geomDispatcher.functors = [Ig2_Sphere_Sphere_ScGeom6D()]
+    O.engines[2].physDispatcher.functors = [Ip2_CohFrictMat_CohFrictMat_CohFrictPhys(setCohesionNow=True)]
+    O.engines[2].lawDispatcher.functors = [Law2_ScGeom6D_CohFrictPhys_CohesionMoment()]
+    createInteraction(12, len(O.bodies) - 1)
+
+
+def test_a_sphere_between_boxes_with_room_is_taken():
+    box_of_spheres()
+    wedge(0.47)  # six hundredths of its radius on each side, which the solver takes back as far as it can
+    assert harden(O).step > 0
+
+
+def test_rolling_resistance_without_a_sphere_is_refused():
+    with pytest.raises(HardenError, match="has mR = 0.1 m, whose share of a diameter is not known"):
+        strengths.hard_material(ViscElMat(mR=0.1, mRtype=1))
+
+
 @pytest.mark.parametrize(
     "spoil, message",
     (
@@ -215,6 +390,10 @@ def unchanged(state):
         ),
         (lambda: setattr(O.bodies[30], "material", JCFpmMat(label="jointed")), "JCFpmMat"),
         (lambda: setattr(O.engines[3], "mask", 2), "mask = 2"),
+        (lambda: wear(ViscElMat(mR=0.1, mRtype=2, label="v")), "material v has mRtype 2"),
+        (lambda: wear(ViscElMat(lubrication=True, label="v")), "material v has lubrication"),
+        (lambda: wedge(0.42), "sphere #39 lies in boxes #37 and #38"),
+        (lambda: tie(2.0), "interaction #12+#37 holds spheres across a gap of 2 m"),
     ),
 )
 def test_what_has_no_counterpart_is_refused_and_the_scene_stays(spoil, message):
@@ -303,3 +482,36 @@ def test_wrong_options_are_refused(tmp_path, words, message):
     (tmp_path / "soft.py").write_text(SCRIPT)
     done = launch(tmp_path, *words)
     assert done.returncode != 0 and message in done.stdout + done.stderr
+
+
+CHANCE = """
+import random
+from yade import pack
+sp = pack.SpherePack()
+sp.makeCloud((0, 0, 0), (4, 4, 4), rMean=0.4, rRelFuzz=0.3)
+print("DREW", random.random(), len(sp), sp[0][0])
+sp.toSimulation()
+O.engines = ENGINES
+O.dt = 1e-4
+O.saveTmp()
+O.run(1000, True)
+O.loadTmp()
+""".replace(
+    "ENGINES",
+    "[ForceResetter(), InsertionSortCollider([Bo1_Sphere_Aabb()]), InteractionLoop([Ig2_Sphere_Sphere_ScGeom()], "
+    "[Ip2_FrictMat_FrictMat_FrictPhys()], [Law2_ScGeom_FrictPhys_CundallStrack()]), NewtonIntegrator(gravity=(0, 0, -9.81))]",
+)
+
+
+def test_a_script_of_chance_draws_the_same_in_both_runs_and_is_measured_before_it_loads(tmp_path):
+    (tmp_path / "chance.py").write_text(CHANCE)
+    done = launch(tmp_path, "--both", "--time", "0.05", "chance.py")
+    assert done.returncode == 0, done.stderr
+    drew = re.findall(r"DREW (.*)", done.stdout)
+    assert len(drew) == 2 and drew[0] == drew[1]
+    (time,) = re.findall(r"^simulated \[s\]\s+(\S+)\s+(\S+)", done.stdout, re.M)
+    assert [float(one) for one in time] == pytest.approx([0.05, 0.05], rel=0.1)  # not 0, where the script goes back to
+    (way,) = re.findall(r"^way \[m\]\s+(\S+)\s+(\S+)", done.stdout, re.M)
+    # a free fall: g t²/2, less a fifth for the integrator's damping of springs; half a step early or late
+    assert float(way[1]) == pytest.approx(0.5 * 9.81 * 0.05**2, rel=0.15)
+    assert float(way[0]) == pytest.approx(0.8 * 0.5 * 9.81 * 0.05**2, rel=0.15)

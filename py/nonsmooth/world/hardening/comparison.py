@@ -3,15 +3,16 @@
 from __future__ import annotations
 
 import argparse
+import math
 import os
 
 from tabulate import tabulate
 
-from yade.wrapper import NewtonIntegrator, Sphere
+from yade.wrapper import NewtonIntegrator, Sphere, SpheresFactory
 
 from ...system import script_process
 from .error import HardenError
-from .script import Watch, stand_ins
+from .script import Watch, seed_all, stand_ins
 
 __all__ = ["asked", "begin", "both", "end", "stand_ins"]
 
@@ -24,6 +25,8 @@ def asked(argv):
     parser.add_argument("--time", default="")
     parser.add_argument("--steps", type=int)
     parser.add_argument("--keep-step", action="store_true")
+    parser.add_argument("--damped", action="store_true")
+    parser.add_argument("--seeded", action="store_true")
     how = parser.parse_args(argv[1:at])
     try:
         how.time = float(how.time) if how.time else None
@@ -37,40 +40,67 @@ def asked(argv):
 
 def begin(how):
     """Watches the script's runs from here on."""
+    if how.seeded:
+        seed_all()
+    options = dict(step="soft") if how.keep_step else {}
+    if how.damped:
+        options["restitution"] = "damping"
     return Watch(
-        hard=how.how == "hard",
-        most=how.time,
-        most_steps=how.steps,
-        options=dict(step="soft") if how.keep_step else None,
+        hard=how.how == "hard", most=how.time, most_steps=how.steps, options=options, measure=_measured
     ).install()
 
 
 def end(how, watch, O):
-    """After the script: makes the steps that it has left to a window's button, where a time is asked for, and tells what
-    all took."""
+    """After the script: makes the steps that it has left to a window's button, where a time is asked for, and tells
+    what all took.
+    """
     if ((how.time is not None and O.time < how.time) or (how.steps is not None and not watch.steps)) and O.engines:
         watch.run_on(O)
     if not watch.steps and how.how == "hard" and watch.hardened is None:
         raise HardenError("the script makes no steps: give --time, the simulated time [s] for which it is to run")
-    found = {
-        "wall time [s]": watch.wall,
+    found = {"wall time [s]": watch.wall, "steps": watch.steps, **(watch.found or _measured(O))}
+    if watch.start and "mean x [m]" in watch.start and "mean x [m]" in found:
+        names = [f"mean {axis} [m]" for axis in "xyz"]
+        found["way [m]"] = math.sqrt(sum((found[name] - watch.start[name]) ** 2 for name in names))
+    if not script_process.tell(found):
+        print(tabulate(found.items(), floatfmt=".4g"))
+
+
+def _measured(O):
+    """What is compared of two runs."""
+    balls = [b for b in O.bodies if b is not None and isinstance(b.shape, Sphere) and b.dynamic]
+    return {
         "simulated [s]": O.time,
-        "steps": watch.steps,
         "step [s]": O.dt,
         "kinetic energy [J]": sum(
             0.5 * b.state.mass * b.state.vel.squaredNorm() for b in O.bodies if b is not None and b.dynamic
         ),
         "largest overlap [radii]": _largest_overlap(O),
         "contacts": O.interactions.countReal(),
+        "spheres": len(balls),
+        "factories": sum(isinstance(e, SpheresFactory) for e in O.engines),
+        **_places(balls),
         **_heights(O),
     }
-    if not script_process.tell(found):
-        print(tabulate(found.items(), floatfmt=".4g"))
+
+
+def _places(balls):
+    """Mean place of the spheres, how far they are spread about it, and their mean diameter."""
+    if not balls:
+        return {}
+    centre = [sum(b.state.pos[k] for b in balls) / len(balls) for k in range(3)]
+    spread = math.sqrt(sum((b.state.pos[k] - centre[k]) ** 2 for b in balls for k in range(3)) / len(balls))
+    return {
+        "mean diameter [m]": 2 * sum(b.shape.radius for b in balls) / len(balls),
+        **{f"mean {axis} [m]": value for axis, value in zip("xyz", centre)},
+        "spread [m]": spread,
+    }
 
 
 def _heights(O):
     """Where the spheres are against gravity, and how they press on what does not move."""
-    gravity = [e.gravity for e in O.engines if isinstance(e, NewtonIntegrator) and not e.dead]
+    newtons = [e for e in O.engines if isinstance(e, NewtonIntegrator) and not e.dead]
+    gravity = [e.gravity for e in newtons]
     balls = [b for b in O.bodies if b is not None and isinstance(b.shape, Sphere) and b.dynamic]
     if not gravity or not gravity[0].norm() or not balls:
         return {}
@@ -82,6 +112,8 @@ def _heights(O):
         "mean height [m]": sum(heights) / len(heights),
         "highest [m]": max(heights),
         "weight held [share]": held / weight if weight > 0 else 0,
+        "gravity [m/s²]": gravity[0].norm(),
+        "damping": newtons[0].damping,
     }
 
 
@@ -101,7 +133,14 @@ def both(how, path, argv):
     rows, status = {}, 0
     for kind in ("soft", "hard"):
         done, found = script_process.run(
-            path, kind, threads, arguments=argv[1:], time=how.time, steps=how.steps, keep_step=how.keep_step
+            path,
+            kind,
+            threads,
+            arguments=argv[1:],
+            time=how.time,
+            steps=how.steps,
+            keep_step=how.keep_step,
+            seeded=True,
         )
         status = status or done.returncode
         if found is not None:

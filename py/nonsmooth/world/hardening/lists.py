@@ -26,7 +26,7 @@ from yade.wrapper import (
 from .. import space
 from .error import HardenError
 
-__all__ = ["hard_engines", "loop_of", "newton_of"]
+__all__ = ["REACH", "hard_engines", "loop_of", "newton_of"]
 
 # laws of springs, friction and damping between spheres; a law that is no contact of grains has no rigid counterpart
 _LAWS = (
@@ -44,7 +44,8 @@ _SHAPES = {
     Segment: (Bo1_Segment_Aabb, Ig2_Segment_Sphere_ScGeom),
     Arc: (Bo1_Arc_Aabb, Ig2_Arc_Sphere_ScGeom),
 }
-_REACH = 0.05  # ℓ
+#: Gap up to which contacts are known beforehand [ℓ].
+REACH = 0.05
 
 
 def loop_of(engines):
@@ -62,15 +63,17 @@ def loop_of(engines):
     return loops[0]
 
 
-def newton_of(engines):
-    """The NewtonIntegrator that runs; raises HardenError where there is not one of them, or it moves a part of the bodies
-    alone."""
+def newton_of(engines, bodies=None):
+    """The NewtonIntegrator that runs; raises HardenError where there is not one of them, or where its mask leaves out some
+    of the ``bodies`` that can move (None: they are not looked at).
+    """
     newtons = [e for e in engines if isinstance(e, NewtonIntegrator) and not e.dead]
     if len(newtons) != 1:
         raise HardenError(
             f"O.engines has {len(newtons) or 'no'} NewtonIntegrator{'s' * (len(newtons) > 1)}, which moves rigid bodies: put one in, in the place of another integrator"
         )
-    if newtons[0].mask > 0:
+    # walls that it leaves out stay, as belts: their velocity acts, and nothing moves them
+    if newtons[0].mask > 0 and any(b.dynamic and not b.mask & newtons[0].mask for b in bodies or ()):
         raise HardenError(
             f"NewtonIntegrator.mask = {newtons[0].mask}: the solver takes bodies outside of the mask for moving; set mask = -1 and block the DOFs of bodies that must stay"
         )
@@ -102,9 +105,12 @@ def hard_engines(engines, shapes, in_plane, options):
             rows.append((name, "dropped: the step of rigid contacts does not depend on stiffness"))
         elif isinstance(engine, Collider):
             made.append(_collider(engine, touched, in_plane))
-            rows.append((name, f"{type(made[-1]).__name__}, which sees open gaps of {_REACH:g} ℓ"))
+            rows.append((name, f"{type(made[-1]).__name__}, which sees open gaps of {REACH:g} ℓ"))
         elif isinstance(engine, InteractionLoop):
-            made.append(space.loop(_REACH, shapes=touched, label=engine.label))
+            made.append(space.loop(REACH, shapes=touched, label=engine.label))
+            if not _meet(engine):  # a script may leave spheres through each other
+                made[-1].geomDispatcher.functors = made[-1].geomDispatcher.functors[1:]
+                rows.append(("no contacts of spheres with spheres", "stays so"))
             laws = ", ".join(type(law).__name__ for law in engine.lawDispatcher.functors)
             rows.append((f"{name} ({laws})", "NscdInteractionLoop (Law2_ScGeom_NscdPhys_SignoriniCoulomb)"))
         elif isinstance(engine, DomainLimiter):
@@ -124,11 +130,16 @@ def hard_engines(engines, shapes, in_plane, options):
     return made, rows
 
 
+def _meet(loop):
+    """Whether a loop of springs has contacts of spheres with each other."""
+    return any(type(functor).__name__.startswith("Ig2_Sphere_Sphere_") for functor in loop.geomDispatcher.functors)
+
+
 def _collider(old, shapes, in_plane):
     if in_plane:  # where no wall asks for twice the reach
-        return PlanarGridCollider(space.bounds(0.5 * _REACH, shapes), verletDist=-0.2, label=old.label)
+        return PlanarGridCollider(space.bounds(0.5 * REACH, shapes), verletDist=-0.2, label=old.label)
     return InsertionSortCollider(
-        space.bounds(_REACH, shapes), label=old.label, avoidSelfInteractionMask=old.avoidSelfInteractionMask
+        space.bounds(REACH, shapes), label=old.label, avoidSelfInteractionMask=old.avoidSelfInteractionMask
     )
 
 

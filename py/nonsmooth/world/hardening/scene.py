@@ -8,13 +8,15 @@ import textwrap
 import numpy as np
 from tabulate import tabulate
 
-from yade.wrapper import NscdMat, PeriodicEngine, PyRunner, Sphere
+from yade.wrapper import NewtonIntegrator, NscdMat, PeriodicEngine, PyRunner, Sphere
 
+from . import belts
 from .energies import hear_energies
 from .error import HardenError
-from .lists import hard_engines, loop_of, newton_of
+from .lists import REACH, hard_engines, loop_of, newton_of
+from .room import refuse_far_bonds, refuse_wedged
 from .steps import hard_step
-from .strengths import hard_material, restitution_of
+from .strengths import hard_material, pairs_of, restitution_of, restitution_of_damping, set_pairs
 
 __all__ = ["HardenError", "Hardened", "harden"]
 
@@ -48,22 +50,23 @@ class Hardened:
 
 
 def harden(O, step=None, restitution=None, **options):
-    """Turns the scene ``O``, built for springs, into one of rigid contacts; returns a :class:`Hardened`, which prints as
-    a table of what became what and what was dropped.
+    """Turns the scene ``O``, built for springs, into one of rigid contacts; returns a :class:`Hardened`, which prints
+    as a table of what became what and what was dropped.
 
-    Materials with springs (FrictMat, CohFrictMat, ViscElMat) become NscdMats with their friction, rolling and twisting
-    resistance, cohesion and restitution (:mod:`yade.nonsmooth.hardening.strengths`); the InteractionLoop gets the rigid law and geometry that
-    sees open gaps; NewtonIntegrator's damping becomes 0, with a ContactDynamicsEngine before it; time steppers go. All
-    that moves in the x-y plane alone (blockedDOFs "zXY") is solved there. Present interactions end, and are found
-    again.
+    Materials with springs (FrictMat, CohFrictMat, ViscElMat) become NscdMats with their friction, rolling and
+    twisting resistance, cohesion and restitution (:mod:`yade.nonsmooth.hardening.strengths`); the InteractionLoop
+    gets the rigid law and geometry that sees open gaps; NewtonIntegrator's damping becomes 0, with a
+    ContactDynamicsEngine before it; time steppers go. All that moves in the x-y plane alone (blockedDOFs "zXY") is
+    solved there. Present interactions end, and are found again.
 
     ``step``: O.dt [s]; "soft": it stays; None: a tenth of the smallest sphere's diameter is the longest way in a step,
     or it stays where engines with springs of their own (VESupportEngine) are at work. Engines that act
     every so many steps act after the same time as before. ``restitution``: of all contacts, in place of what materials
-    and functors say; ``options``: attributes of ContactDynamicsEngine.
+    and functors say; "damping": where these say nothing, what NewtonIntegrator's damping λ leaves of an impact of
+    springs, √((1 − λ)/(1 + λ)), 1 without damping; ``options``: attributes of ContactDynamicsEngine.
 
     Raises HardenError, a RuntimeError, for what has no rigid counterpart: clumps, periodic cells, shapes and laws other
-    than those above. The scene is then as it was.
+    than those above, spheres wedged between boxes, cohesion across gaps. The scene is then as it was.
     """
     if O.periodic:
         raise HardenError(
@@ -79,14 +82,29 @@ def harden(O, step=None, restitution=None, **options):
     shapes = {type(b.shape) for b in bodies if b.shape is not None and b.bounded}
     moving = [b for b in bodies if isinstance(b.shape, Sphere) and b.dynamic]
     in_plane = bool(moving) and all(set(_PLANE) <= set(b.state.blockedDOFs) for b in moving)
+    newton = newton_of(O.engines, bodies)
+    refuse_wedged(bodies, moving)
+    refuse_far_bonds(O.interactions, bodies, REACH)
+    left, restitution = restitution == "damping", None if restitution == "damping" else restitution
     of_functors = restitution_of(loop.physDispatcher.functors) if restitution is None else restitution
+    if left and of_functors is None:
+        of_functors = restitution_of_damping(newton.damping)
     disk_radius = sum(b.shape.radius for b in moving) / len(moving) if in_plane else None
+    diameter = 2 * sum(b.shape.radius for b in moving) / len(moving) if moving else None
+    pairs = pairs_of(loop.physDispatcher.functors)
     materials, told = {}, []
-    for soft in {b.material.id: b.material for b in bodies if b.material is not None}.values():
-        materials[soft], became = hard_material(soft, of_functors, disk_radius)
+    used = {b.material.id: b.material for b in bodies if b.material is not None}
+    used |= {k: O.materials[k] for pair in pairs for k in pair if k not in used}  # of bodies that will come
+    for soft in used.values():
+        materials[soft], became = hard_material(soft, of_functors, disk_radius, diameter)
         if restitution is not None:
             materials[soft].restitution = restitution
         told.append((f"{type(soft).__name__} {soft.label!r}", f"NscdMat: {became}"))
+    set_pairs(pairs, {soft.id: hard for soft, hard in materials.items()})
+    told += [
+        (f"materials #{one} with #{other}", ", ".join(f"{name} = {value:.3g}" for name, value in values.items()))
+        for (one, other), values in sorted(pairs.items())
+    ]
     soft_step = O.dt
     step = _step(O, bodies, moving) if step is None else soft_step if step == "soft" else step
     engines, rows = hard_engines(O.engines, shapes, in_plane, options)
@@ -108,6 +126,12 @@ def harden(O, step=None, restitution=None, **options):
                 "bonds where bodies are nearer than bondCreationDistance, made after the first step",
             )
         )
+    if newton.mask > 0:  # the solver knows no mask: walls that it left out are put back, and drag as before
+        command = belts.command_of([b for b in bodies if not b.dynamic and not b.mask & newton.mask])
+        rows.append((f"NewtonIntegrator.mask = {newton.mask}", "mask = -1; walls outside of it stay, as belts"))
+        if command:
+            engines.append(PyRunner(command=command, iterPeriod=1, initRun=True))
+        next(e for e in engines if isinstance(e, NewtonIntegrator) and not e.dead).mask = -1
     O.engines = engines
     O.dt = step
     rows = told + rows + _keep_periods(engines, soft_step, step)
@@ -118,7 +142,7 @@ def harden(O, step=None, restitution=None, **options):
         soft_step,
         step,
         materials,
-        functools.partial(_hard_alone, restitution=of_functors, disk_radius=disk_radius),
+        functools.partial(_hard_alone, restitution=of_functors, disk_radius=disk_radius, diameter=diameter),
     )
 
 

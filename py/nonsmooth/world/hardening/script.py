@@ -9,18 +9,22 @@ next step. Windows of YADE's (yade.qt) are left out, and so are those of plots.
 from __future__ import annotations
 
 import os
+import random
 import re
 import sys
 import time
 import types
 
+import numpy as np
+
 import yade.wrapper
+from yade._packSpheres import SpherePack
 from yade.wrapper import InteractionLoop, Law2_ScGeom_NscdPhys_SignoriniCoulomb, Omega, PyRunner
 
 from .error import HardenError
 from .scene import harden
 
-__all__ = ["Watch", "YadeCheckError", "stand_ins"]
+__all__ = ["Watch", "YadeCheckError", "seed_all", "stand_ins"]
 
 
 _NONE_OF_IT = ("elastPotential", "nonviscDamp", "plastDissip")
@@ -29,12 +33,15 @@ _NONE_OF_IT = ("elastPotential", "nonviscDamp", "plastDissip")
 class Watch:
     """Sees to a script's runs. ``hard``: its contacts become rigid; False: it stays as it is, and is measured alone.
     ``most``: time [s], ``most_steps``: number of steps after which all of its runs end; None: when the script's do.
+    ``measure(O)``: what is to be found then, ``found``.
     """
 
     _now = None
 
-    def __init__(self, hard=True, most=None, most_steps=None, options=None):
+    def __init__(self, hard=True, most=None, most_steps=None, options=None, measure=None):
         self.hard, self.most, self.most_steps, self.options = hard, most, most_steps, options or {}
+        self._measure, self.found = measure, None
+        self.start = None  # what ``measure`` says before the first step
         self.hardened = None
         self.wall, self.steps, self.overlap = 0.0, 0, 0.0
         self._soft_step = None
@@ -78,6 +85,8 @@ class Watch:
 
     def prepare(self, omega):
         """Hardens the scene where its contacts are soft."""
+        if self.start is None and self._measure is not None:
+            self.start = self._measure(omega)
         self.take_new(omega)
         if not self.hard or not _is_soft(omega):
             self._soft_step = self._soft_step or omega.dt
@@ -119,6 +128,8 @@ class Watch:
             run(omega, count, True)
         self.wall += time.perf_counter() - begin
         self.steps += omega.iter - first
+        if bounds and count == min(bounds) and self._measure is not None and self.found is None:
+            self.found = self._measure(omega)  # a script may load or clear its scene afterwards
 
     def run_on(self, omega):
         """Makes the steps that the script has left to a window's button, up to the bound."""
@@ -143,6 +154,22 @@ def _is_soft(omega):
         for loop in loops
         for law in loop.lawDispatcher.functors
     )
+
+
+def seed_all(seed=1):
+    """From now on a script draws the same numbers in each of its runs: by ``random``, by NumPy, and in clouds of spheres
+    that it gives no seed.
+    """
+    random.seed(seed)
+    np.random.seed(seed)
+    make = SpherePack.makeCloud
+
+    def make_cloud(pack, *arguments, **options):
+        if len(arguments) < 12:  # the place of makeCloud's own seed
+            options.setdefault("seed", seed)
+        return make(pack, *arguments, **options)
+
+    SpherePack.makeCloud = make_cloud
 
 
 class YadeCheckError(Exception):

@@ -5,7 +5,8 @@ damping have no counterpart but restitution:
 
 * ``frictionAngle`` and ``density`` stay; friction is the same with and without a bond.
 * ``ViscElMat.en`` is the restitution; so is a functor's ``en``, where that is one number.
-* ``ViscElMat.mR``: rolling friction mR/2, since a torque mR R N has half of ℓ for its arm.
+* ``ViscElMat.mR``: a length, the arm of a torque mR N: rolling friction mR by the mean diameter of the spheres.
+  ``mRtype`` 2, a torque that grows with the speed, is refused.
 * ``CohFrictMat.etaRoll`` and ``etaTwist``: rolling and twisting friction eta/2, where the material has
   ``momentRotationLaw``.
 * ``CohFrictMat.normalCohesion`` c: the tensile strength of a bond, c/π: a force c R² on the area π/4 ℓ² of two equal
@@ -21,7 +22,7 @@ from yade.wrapper import CohFrictMat, FrictMat, MatchMaker, NscdMat, ViscElMat
 
 from .error import HardenError
 
-__all__ = ["hard_material", "restitution_of"]
+__all__ = ["hard_material", "pairs_of", "restitution_of", "restitution_of_damping", "set_pairs"]
 
 # classes whose contacts have a rigid counterpart; those that are derived from them have laws of their own
 _KNOWN = ("FrictMat", "CohFrictMat", "ViscElMat", "FrictMatCDM", "FrictViscoMat")
@@ -45,12 +46,60 @@ def restitution_of(functors):
     return None
 
 
-def hard_material(soft, restitution=None, disk_radius=None):
+def restitution_of_damping(damping):
+    """The coefficient of restitution of springs without damping of their own under NewtonIntegrator's ``damping`` λ: it
+    raises the spring's force by λ while that brakes, and lowers it by λ while that throws back.
+    """
+    return math.sqrt((1 - damping) / (1 + damping))
+
+
+def pairs_of(functors):
+    """{(lower id, higher id): {attribute of an NscdMat: value}} of the pairs of materials that Ip2 functors have values
+    of their own for, by a MatchMaker.
+    """
+    found = {}
+    for functor in functors:
+        for name, attribute in (("frictAngle", "frictionAngle"), ("en", "restitution")):
+            given = getattr(functor, name, None)
+            for one, other, value in given.matches if isinstance(given, MatchMaker) else ():
+                pair = tuple(sorted((int(one), int(other))))
+                found.setdefault(pair, {})[attribute] = float(value)
+    return found
+
+
+def set_pairs(pairs, hard):
+    """Gives rigid materials the values of :func:`pairs_of`; ``hard``: {id of the soft material: NscdMat}.
+
+    Two different materials get a law of their contacts (NscdMat.interfaceLaws), for which each has a layer of its own.
+    """
+    for (one, other), values in sorted(pairs.items()):
+        a, b = hard[one], hard[other]
+        if one == other:
+            for attribute, value in values.items():
+                setattr(a, attribute, value)
+    for (one, other), values in sorted(pairs.items()):
+        a, b = hard[one], hard[other]
+        if one == other:
+            continue
+        a.layer, b.layer = -2 - one, -2 - other  # negative ones bond nothing
+        weaker = {
+            name: min(getattr(a, name), getattr(b, name))
+            for name in ("frictionAngle", "rollingFriction", "twistingFriction", "tensileStrength")
+        }
+        law = NscdMat(
+            **{**weaker, "restitution": max(a.restitution, b.restitution), **values},
+            bondsToAll=a.bondsToAll or b.bondsToAll,
+        )
+        a.interfaceLayers, a.interfaceLaws = [*a.interfaceLayers, b.layer], [*a.interfaceLaws, law]
+
+
+def hard_material(soft, restitution=None, disk_radius=None, diameter=None):
     """An NscdMat with the strengths of ``soft``, not yet in the scene, and a sentence on what became what.
 
     ``restitution``: that of the functors, where they have one; a material's own ``en`` holds before it.
-    ``disk_radius`` [m]: of the disks of a scene in the plane, per metre of thickness; None in space. Raises
-    HardenError for a class whose strengths are unknown.
+    ``disk_radius`` [m]: of the disks of a scene in the plane, per metre of thickness; None in space. ``diameter`` [m]:
+    mean of the spheres that move. Raises HardenError for a class whose strengths are unknown, and for what rigid
+    contacts have not.
     """
     name = type(soft).__name__
     if isinstance(soft, NscdMat):
@@ -59,13 +108,17 @@ def hard_material(soft, restitution=None, disk_radius=None):
         raise HardenError(
             f"material {soft.label or '#' + str(soft.id)} is a {name}, whose strengths have no rigid counterpart here: give its bodies an NscdMat before harden()"
         )
+    if getattr(soft, "lubrication", False):
+        raise HardenError(
+            f"material {soft.label or '#' + str(soft.id)} has lubrication, a force across gaps that rigid contacts have not: set lubrication = False"
+        )
     # a wall may have none, and an NscdMat wants one
     density = soft.density if soft.density > 0 else _WALL_DENSITY
     values = dict(label=soft.label, density=density, frictionAngle=soft.frictionAngle, restitution=restitution or 0)
     if isinstance(soft, ViscElMat):
         if math.isfinite(soft.en):
             values["restitution"] = min(1.0, max(0.0, soft.en))
-        values["rollingFriction"] = 0.5 * soft.mR
+        values["rollingFriction"] = _rolling(soft, diameter)
     if isinstance(soft, CohFrictMat):
         if soft.momentRotationLaw:
             values["rollingFriction"] = 0.5 * max(0.0, soft.etaRoll)
@@ -81,3 +134,19 @@ def hard_material(soft, restitution=None, disk_radius=None):
         if key not in ("label", "density", "bondsToAll") and value
     )
     return hard, f"{told or 'no friction'}; dropped: {_DROPPED.get(name, 'stiffness and damping')}"
+
+
+def _rolling(soft, diameter):
+    """Rolling friction of a ViscElMat."""
+    if not soft.mR > 0:
+        return 0.0
+    name = soft.label or f"#{soft.id}"
+    if soft.mRtype != 1:
+        raise HardenError(
+            f"material {name} has mRtype {soft.mRtype}, a rolling resistance that grows with the speed, which rigid contacts have not: set mRtype = 1, or mR = 0"
+        )
+    if diameter is None:
+        raise HardenError(
+            f"material {name} has mR = {soft.mR:g} m, whose share of a diameter is not known, since no sphere of the scene moves: set mR = 0, or call harden() once spheres are there"
+        )
+    return soft.mR / diameter
