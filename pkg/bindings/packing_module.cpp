@@ -16,7 +16,13 @@ namespace {
 using Flags = py::array_t<bool, py::array::c_style | py::array::forcecast>;
 using Longs = py::array_t<std::int64_t>;
 
-int threadsOf(int wanted) { return wanted > 0 ? wanted : omp_get_max_threads(); }
+/// Sweeps of fewer disks are so short that on a busy machine threads would mostly wait for each other.
+constexpr py::ssize_t disksOfThread = 20000;
+
+int threadsOf(int wanted, py::ssize_t disks)
+{
+	return wanted > 0 ? wanted : int(std::clamp<py::ssize_t>(disks / disksOfThread, 1, omp_get_max_threads()));
+}
 
 /// Three lists of one length.
 void check(const Doubles& x, const Doubles& y, const Doubles& r)
@@ -78,7 +84,7 @@ py::tuple closePairsOf(const Doubles& x, const Doubles& y, const Doubles& r, dou
 	for (py::ssize_t k = 0; k < x.size(); ++k)
 		disks.push_back({ x.at(k), y.at(k), r.at(k) });
 	std::vector<int> first, second;
-	closePairs(disks, margin, threadsOf(threads), first, second);
+	closePairs(disks, margin, threadsOf(threads, x.size()), first, second);
 	const auto size = py::ssize_t(first.size());
 	Longs      i(size), j(size);
 	std::copy(first.begin(), first.end(), i.mutable_data());
@@ -150,7 +156,7 @@ PYBIND11_MODULE(_nonsmooth_packing, m)
 	                         const Ints& bySize, const py::list& borders, int threads) {
 		             return Relaxation(
 		                     givenOf(x, y, r, layer, bySize), bordersOf(borders, std::size_t(x.size())),
-		                     threadsOf(threads));
+		                     threadsOf(threads, x.size()));
 	             }),
 	             py::arg("x"), py::arg("y"), py::arg("r"), py::arg("layer"), py::arg("order"), py::arg("borders"),
 	             py::arg("threads") = 0)

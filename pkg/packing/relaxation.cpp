@@ -15,10 +15,11 @@
 namespace nonsmooth::packing {
 
 namespace {
-	constexpr int bodiesOfThread = 4000; // fewer are not worth a thread that has to be waited for
 	// margins of lists, in smallest diameters: `skin` is the walls', on which bits rest; the others are for speed
 	constexpr double skinShare = 0.3, wideShare = 0.6, narrowShare = 0.005,
-	                 stepsOfNarrow = 16; // for so many of the last steps it shall hold
+	                 stepsOfNarrow = 16, // for so many steps like the recent ones it shall hold
+	        tooWide                = 3; // times the margin that would do
+	constexpr double forgets       = 0.9; // of the largest step, in each
 	constexpr double safe          = 0.999; // of a margin: rounding has the rest
 	constexpr int    ahead         = 32; // bodies whose products, which lie anywhere, are asked for in time
 	constexpr double nearest       = 1e-12; // m, of two centres
@@ -47,11 +48,11 @@ Relaxation::Relaxation(const Given& given, const std::vector<Border>& borders, i
         , radius(given.r)
         , near(number)
         , walls(borders, number)
-        , threads(std::max(1, std::min(threads_, int(number.size()) / bodiesOfThread)))
+        , threads(std::max(1, threads_))
         , skin(skinShare * 2 * smallest(given.r))
         , wideMargin(wideShare * 2 * smallest(given.r))
         , stride(strideShare * smallest(given.r))
-        , longestStep(stride)
+        , recentStep(stride)
 {
 	for (const int k : number)
 		bodies.push_back({ given.x[k], given.y[k], given.r[k], 0 });
@@ -127,9 +128,11 @@ void Relaxation::updateLists()
 			sinceWalls.begin(bodies, threads);
 		}
 	}
-	if (!(2 * sinceNarrow.atMost() < safe * narrowMargin)) {
-		const double least = narrowShare / wideShare * wideMargin;
-		narrowMargin       = std::min(std::max(2 * stepsOfNarrow * longestStep, least), wideMargin);
+	const double wanted = std::min(
+	        std::max(2 * stepsOfNarrow * recentStep, narrowShare / wideShare * wideMargin), wideMargin);
+	// as bodies slow down, a list that is still good has too many to be looked at
+	if (!(2 * sinceNarrow.atMost() < safe * narrowMargin) || narrowMargin > tooWide * wanted) {
+		narrowMargin = wanted;
 		near.narrow(bodies, narrowMargin, threads);
 		sinceNarrow.begin();
 	}
@@ -323,9 +326,10 @@ void Relaxation::step()
 		move(change.step, longest > stride ? stride / longest : 1);
 	}
 	// places are rounded
-	longestStep = std::min(longest, stride) * (1 + 1e-9) + roundings;
+	const double moved = std::min(longest, stride) * (1 + 1e-9) + roundings;
 	for (Travel* travel : { &sinceWide, &sinceNarrow, &sinceWalls })
-		travel->add(longestStep);
+		travel->add(moved);
+	recentStep = std::max(moved, forgets * recentStep);
 }
 
 /// Changes velocities, and moves bodies by them; returns the square of the largest.

@@ -28,7 +28,6 @@ struct Given {
 
 class Relaxation {
 public:
-	/// `threads`: at most; a few bodies have one.
 	Relaxation(const Given& given, const std::vector<Border>& borders, int threads);
 	/// Computes forces; returns the largest overlap, by the mean diameter of the two, or the diameter at a wall.
 	/// `squeezes` as well: `exchange` needs them.
@@ -72,7 +71,7 @@ private:
 	TripleSum            sums;
 	Fire                 fire;
 	int                  threads;
-	double               skin, wideMargin, narrowMargin = 0, growth = 0, stride, longestStep,
+	double               skin, wideMargin, narrowMargin = 0, growth = 0, stride, recentStep,
 	                         roundings = 0; // of a place in a step
 	bool          accelerated = true, isSummed = false; // forces have become accelerations; are those of now
 	void          takeSizes(const Given& given);

@@ -2,8 +2,8 @@
 al. 2006). That alone jams near a fraction of 0.84, so disks of nearly the same size, one squeezed and one less so,
 change places on the way: the sizes stay, and the energy falls.
 
-The library takes as many threads as OpenMP has: those of YADE (-j), or of OMP_NUM_THREADS; the bits do not depend on
-it. Lengths in m. Needs no YADE, but this project's module ``_nonsmooth_packing``.
+The library takes as many threads as OpenMP has, those of YADE (-j) or of OMP_NUM_THREADS, and one for each 20,000
+disks at most; the bits do not depend on it. Lengths in m. Needs no YADE, but this project's module ``_nonsmooth_packing``.
 """
 
 from __future__ import annotations

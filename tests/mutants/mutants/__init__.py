@@ -14,6 +14,7 @@ from . import (
     safety,
     section_water,
     shaking,
+    packing,
     slip,
     solver,
     space,
@@ -40,6 +41,7 @@ MUTANTS = (
     + dilatancy.MUTANTS
     + results.MUTANTS
     + shaking.MUTANTS
+    + packing.MUTANTS
     + slip.MUTANTS
     + safety.MUTANTS
     + laboratory.MUTANTS

@@ -43,10 +43,6 @@ MUTANTS = (
     mutant("heap-film", PY + "studies/heaps/course.py", "now >= (len(self.film) * FILM - 1e-9) * unit", "now >= len(self.film) * FILM", "a film's frames come by seconds",
            "test_heap_course.py::test_rows_and_frames_come_when_they_are_due"),
     # ---- packings
-    mutant("pack-swap-layers", "py/nonsmooth/packing/__init__.py", "gain &= self.layer[small] == self.layer[large]", "gain &= self.layer[small] <= self.layer[large]",
-           "disks of two layers change places", "plain:test_packing.py::test_the_more_squeezed_larger_one_changes_places"),
-    mutant("pack-corner", "py/nonsmooth/packing/__init__.py", "np.where(after & (off > 0), r[disks] - dist, 0)", "np.where(off > 0, r[disks] - dist, 0)",
-           "a corner pushes twice", "plain:test_packing.py::test_edges_and_corners_push_by_hand"),
     mutant("press-weight", "py/nonsmooth/studies/slope/slope_packing.py", "state.mass * gravity * n", "state.mass * n", "disks are pressed by their masses",
            "test_slope_packing.py::test_each_disk_is_drawn_by_its_weight"),
     # ---- laboratory

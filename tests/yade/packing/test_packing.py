@@ -513,7 +513,7 @@ def test_the_more_squeezed_larger_one_changes_places(overlap, layer, changed):
     box, by = geometry.edges(geometry.Polygon([(-9, 0), (9, 0), (9, 99), (-9, 99)])), 0.5 * abs(overlap)
     at = (9.0, 1.5 - by) if overlap > 0 else (1.0 - by, 9.0)
     one = relaxation.disks(np.array([-4.0, 4.0]), np.array(at), np.array([1.0, 1.5]), np.array(layer), [(box, None)])
-    one.forces(True)
+    assert one.forces(True) == pytest.approx(by / (3.0 if overlap > 0 else 2.0), abs=1e-12)  # of its diameter
     assert one.squeeze == pytest.approx([0, overlap] if overlap > 0 else [-overlap, 0], abs=1e-12)
     assert one.exchange(0, 1) == changed
     assert one.r.tolist() == ([1.5, 1.0] if changed else [1.0, 1.5])

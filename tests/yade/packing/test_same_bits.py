@@ -61,7 +61,7 @@ def test_a_packing_of_known_bits():
 
 def crowd(count, widest, seed=5):
     """Disks thrown into a bent region of two layers with a wall between them, too many to go in without an overlap, the
-    largest `widest` times as large as the smallest; every tenth of the first layer is as large as another one.
+    largest `widest` times as large as the smallest; a third of the first layer has rounded sizes, so that many are equal.
     """
     dice = np.random.default_rng(seed)
     r = np.exp(dice.uniform(0, np.log(widest), count))
@@ -69,8 +69,8 @@ def crowd(count, widest, seed=5):
     x, y = size * dice.random((2, count))
     y = np.where(dice.random(count) < 1 / 3, y / 2 - size / 2, y)
     layer = (y < 0).astype(np.int64)
-    twins = np.flatnonzero(layer == 0)[::10]
-    r[twins[1:]] = r[twins[:-1]]
+    some = np.flatnonzero(layer == 0)[::3]
+    r[some] = np.round(r[some], 1)
     corners = [
         (0, -size / 2),
         (size, -size / 2),
@@ -84,7 +84,7 @@ def crowd(count, widest, seed=5):
     return (x, y, r, layer, borders), r
 
 
-@pytest.mark.parametrize("count, widest, sweeps", [(12_500, 3.0, 50), (12_500, 60.0, 25), (12_500, 1.0, 25)])
+@pytest.mark.parametrize("count, widest, sweeps", [(4000, 3.0, 100), (4000, 60.0, 50), (4000, 1.0, 50)])
 def test_sweeps_have_the_same_bits_on_any_number_of_threads(count, widest, sweeps, monkeypatch):
     monkeypatch.setattr(relaxation, "SWEEPS", sweeps)
     given, r = crowd(count, widest)
