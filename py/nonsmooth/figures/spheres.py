@@ -271,5 +271,5 @@ def reposes(groups, path=None, pdf=False):
     ax.set_ylabel("angle of repose [°]")
     ax.set_ylim(bottom=0)
     ax.grid(color="#e3e3e3", lw=0.7)
-    ax.legend(loc="lower right", fontsize=8)
+    ax.legend(loc="lower left", fontsize=8)
     return style.save(fig, path, pdf)

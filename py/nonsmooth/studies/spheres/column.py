@@ -34,7 +34,7 @@ def filled(size):
 @dataclass(frozen=True)
 class RoundColumn(SphereScene):
     """A column before its collapse. ``aspect``: a = h₀/r₀ that is asked for; a run measures its own at rest in the
-    tube. ``size``: r₀ in mean diameters. The other parameters are those of :class:`.grains.SphereScene`.
+    tube. ``size``: r₀ in mean diameters. The other parameters are those of :class:`.spheres.grains.SphereScene`.
     """
 
     aspect: float = 1.0

@@ -169,14 +169,14 @@ def _begin(scene, world):
 
 @checks.takes(SpheresError, scene=checks.kind(SphereScene, "give a RoundColumn, RoundHopper, TurningDrum or PlatePile"))
 def run(scene, world=None, folder=None, duration=None, progress=lambda share: None) -> dict:
-    """Builds a SphereScene in a ``world`` (of :mod:`.sphere_worlds`; None: :func:`.grains.world_of` of the scene),
-    lets it rest in its container, releases it and follows it to its end, with records in ``folder``; returns the
-    numbers of the run, a dictionary that JSON can hold.
+    """Builds a SphereScene in a ``world`` (of :mod:`.sphere_worlds`; None: :func:`.spheres.grains.world_of` of the
+    scene), lets it rest in its container, releases it and follows it to its end, with records in ``folder``; returns
+    the numbers of the run, a dictionary that JSON can hold.
 
     A checkpoint in the folder is gone on from. ``duration``: longest course after the release in units of T (None:
     that of its kind): √(h₀/g), of a drum √(R/g). ``progress``: called with the share of it that is done. Written:
-    series.csv, ``snapshots`` (:mod:`.places`), and ``checkpoint``. Raises SpheresError or SphereWorldError for what
-    cannot be used, for spheres that do not come to rest, and for a checkpoint of another run.
+    series.csv, ``snapshots`` (:mod:`.spheres.places`), and ``checkpoint``. Raises SpheresError or SphereWorldError
+    for what cannot be used, for spheres that do not come to rest, and for a checkpoint of another run.
     """
     world = world_of(scene) if world is None else world
     scene.check_world(world)

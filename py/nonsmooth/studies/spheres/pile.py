@@ -1,5 +1,5 @@
-"""A pile on a round plate: spheres rest in a tube on it, the tube is taken away, what is too much falls over the
-edge, and a cone stays at its angle of repose.
+"""A pile on a round plate with a low rim: spheres rest in a tube on it, the tube is taken away, what is too much
+falls over the edge, and a cone stays at its angle of repose.
 """
 
 from __future__ import annotations
@@ -15,6 +15,8 @@ from .column import RoundColumn
 
 __all__ = ["PlatePile"]
 
+RIM = 0.5  # mean diameters, height of the plate's rim: it holds the lowest grains, which would roll away
+
 
 @dataclass(frozen=True)
 class PlatePile(RoundColumn):
@@ -28,8 +30,10 @@ class PlatePile(RoundColumn):
     COLUMNS = columns.PILE
 
     def stand(self, walls, top):
-        """A tube up to ``top`` [m] on a plate."""
-        walls.add(shapes.mantle(self.radius, 0.0, top), "gate", smooth=True)
+        """A tube up to ``top`` [m] on the rim of a plate."""
+        rim = RIM * self.diameter
+        walls.add(shapes.mantle(self.radius, rim, top), "gate", smooth=True)
+        walls.add(shapes.mantle(self.radius, 0.0, rim))
         walls.add(shapes.disc(self.radius))
 
     def sink(self):
@@ -42,7 +46,9 @@ class PlatePile(RoundColumn):
     def row(self, places, state):
         """Values of its own columns for Places; ``state``: that of the course."""
         distance, height = measures.profile(places.at, places.r, self._on_it(places))
-        return {"repose_deg": _or(measures.repose(distance, height), 0.0), "lost_spheres": state["out"]}
+        inner = distance < self.radius - self.diameter  # without the rim, where the heap ends as a wall
+        angle = measures.repose(distance[inner], height[inner])
+        return {"repose_deg": 0.0 if math.isnan(angle) else angle, "lost_spheres": state["out"]}
 
     def wall_gaps(self, places):
         """Gaps [m] between spheres and walls that are there after the release, arrays (n,)."""
@@ -62,8 +68,3 @@ class PlatePile(RoundColumn):
             "repose_deg": float(series["repose_deg"][-1]) or None,
             "lost_spheres": state["out"],
         }
-
-
-def _or(value, instead):
-    """What stands for the NaN of a flank that is none yet."""
-    return instead if math.isnan(value) else value

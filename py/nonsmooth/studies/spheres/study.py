@@ -22,7 +22,8 @@ KINDS = {kind.KIND: kind for kind in (RoundColumn, RoundHopper, TurningDrum, Pla
 
 def one(folder, kind, scene, world, duration):
     """Runs a scene in YADE's; ``kind``: of :data:`KINDS`, ``scene``: its parameters, ``world``: arguments of
-    :func:`.grains.world_of`, a dictionary; ``duration``: see :func:`.course.run`. Returns the numbers of the run.
+    :func:`.spheres.grains.world_of`, a dictionary; ``duration``: see :func:`.spheres.course.run`. Returns the numbers
+    of the run.
     """
     from . import course
 
@@ -32,10 +33,10 @@ def one(folder, kind, scene, world, duration):
 
 def planned(name, folder, scene, world, duration=None) -> side_by_side.Run:
     """A run as side_by_side.run takes it, checked: ``name``: for messages; ``world``: arguments of
-    :func:`.grains.world_of`, a dictionary; ``duration`` [T], None: that of its kind.
+    :func:`.spheres.grains.world_of`, a dictionary; ``duration`` [T], None: that of its kind.
 
-    Raises what :func:`.grains.world_of` raises, and SpheresError for what is no scene and for a duration that is no
-    number above 0.
+    Raises what :func:`.spheres.grains.world_of` raises, and SpheresError for what is no scene and for a duration that
+    is no number above 0.
     """
     if type(scene) not in KINDS.values():
         raise SpheresError(f"{checks.shown(scene)}: is no scene of spheres; give one of {', '.join(KINDS)}")

@@ -1,4 +1,4 @@
-"""RoundWalls of round containers as triangles and boxes: plain data, which :mod:`.scene` puts into a world. Needs no
+"""Walls of round containers as triangles and boxes: plain data, which :mod:`.spheres.scene` puts into a world. Needs no
 YADE.
 """
 

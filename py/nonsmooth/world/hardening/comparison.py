@@ -8,7 +8,7 @@ import os
 
 from tabulate import tabulate
 
-from yade.wrapper import NewtonIntegrator, Sphere, SpheresFactory
+from yade.wrapper import NewtonIntegrator, ResetRandomPosition, Sphere, SpheresFactory
 
 from ...system import script_process
 from .error import HardenError
@@ -78,7 +78,8 @@ def _measured(O):
         "largest overlap [radii]": _largest_overlap(O),
         "contacts": O.interactions.countReal(),
         "spheres": len(balls),
-        "factories": sum(isinstance(e, SpheresFactory) for e in O.engines),
+        # engines that draw by chance, each time otherwise
+        "factories": sum(isinstance(e, (SpheresFactory, ResetRandomPosition)) for e in O.engines),
         **_places(balls),
         **_heights(O),
     }

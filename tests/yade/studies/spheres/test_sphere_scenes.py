@@ -225,6 +225,18 @@ def test_the_bulk_density_of_one_sphere_by_its_cap():
     )
 
 
+def test_a_pile_is_measured_without_its_rim():
+    """A cone of 30 degrees that ends two diameters high at the rim, as a wall."""
+    p = pile.PlatePile(size=20, diameter=0.01)
+    x, y = (one.ravel() for one in np.meshgrid(*[np.arange(-0.2, 0.2, 0.003)] * 2))
+    far = np.hypot(x, y)
+    inside = far < 0.2
+    top = 0.02 + math.tan(math.radians(30)) * (0.2 - far)
+    places_ = made_places(np.column_stack((x, y, top - 0.0025 / math.cos(math.radians(30))))[inside], 0.0025)
+    row = p.row(dataclasses.replace(places_), {"out": 3})
+    assert row["repose_deg"] == pytest.approx(30, abs=1) and row["lost_spheres"] == 3
+
+
 def test_a_drum_takes_its_mean_over_the_second_half():
     d = drum.TurningDrum(froude=0.04, size=10, diameter=0.01, gravity=10.0)
     assert d.turning() == pytest.approx(math.sqrt(0.04 * 10 / 0.1), rel=1e-12)
