@@ -91,7 +91,7 @@ MUTANTS = (
     mutant("lab-uncertain", PY + "studies/laboratory/calibration.py", 'known["disks"] / disks / len(seeds)', 'known["disks"] / disks', "several samples are known no better than one",
            "test_laboratory.py::test_a_quick_search_is_of_coarse_samples_and_says_how_good_it_is"),
     mutant("lab-residual", PY + "studies/laboratory/calibration.py", "slopes[2] *= max(0.05, self.wanted.residual_cohesion / self.wanted.cohesion)", "slopes[2] *= 1.0",
-           "a search takes a residual cohesion's misfit for one in parts of itself", "test_laboratory.py::test_calibration_finds_a_made_up_rock_and_goes_on_where_it_was_stopped"),
+           "a search takes a residual cohesion's misfit for one in parts of itself", "test_laboratory.py::test_the_first_slopes_of_a_residual_cohesion_are_in_parts_of_the_peak"),
     mutant("rocks-strength", "py/nonsmooth/model/rocks.py", "cohesion / _rounded(math.exp(over))", "cohesion * _rounded(math.exp(over))", "a rock of the table has too weak bonds",
            "test_rocks.py::test_a_rock_of_the_table_is_given_back"),
     mutant("rocks-linear", "py/nonsmooth/model/rocks.py", "return angle, np.log(mu), np.log(share)", "return angle, np.log(mu), np.log(share[::-1])", "cohesions of the table are in the wrong order",

@@ -46,12 +46,12 @@ MUTANTS = (
     # ---- against closed forms
     mutant("water-line-weight", FIELD, "pressures.append((weight[:, None] * (ends - corners[..., 1])).ravel())", "pressures.append((weight[:, None] * np.abs(ends - corners[..., 1])).ravel())",
            "there is pressure above a line", HELD.format("still-water-on-a-face")),
-    mutant("water-open-level", SEEPAGE, "water.unit_weight * (level - nodes[:, 1])", "water.unit_weight * level", "open water has no hydrostatic pressure", HELD.format("still-water-on-a-face")),
+    mutant("water-open-level", SEEPAGE, "water.unit_weight * (level - nodes[:, 1])", "water.unit_weight * level", "open water has no hydrostatic pressure", FLOW + "::test_open_water_stands_over_the_ground_at_the_level_of_the_time"),
     mutant("water-state-times", WORLD, "times=(pressures.times + begin).tolist()", "times=(pressures.times + 0.9 * begin).tolist()", "states of water come early", HELD.format("states-in-time")),
     mutant("water-bulk", SLOPE + "slope.py", 'volumeFactor=1.0 if section.water.volume == "disk" else 1 / section.disks.packing_fraction', "volumeFactor=1.0", "water of the bulk acts on disks alone",
            HELD.format("parallel-seepage")),
     mutant("water-artesian", "py/nonsmooth/water/conditions.py", "PressureHead: lambda: y[nodes] + one.height", "PressureHead: lambda: np.full(len(nodes), float(one.height)) - y[nodes]", "an artesian base has another head than its pressure asks for",
-           HELD.format("floating-grains")),
+           "plain:test_seepage.py::test_an_artesian_base_has_its_pressure_everywhere_and_the_body_a_linear_one"),
     mutant("water-drawdown", FIELD, "weight = water.unit_weight / (1 + slope**2", "weight = 9810 + 0 * water.unit_weight / (1 + slope**2", "a drawdown along the slope is Morgenstern's", FLOW + "::test_a_drawdown_leaves_the_share_of_safety_of_its_book_keeping"),
     mutant("water-heads", "py/nonsmooth/measure/pressure_heads.py", "up)[piece] + share", "0 * up)[piece] + share", "heads are read below the disks", RUN + "::test_the_run_tells_of_the_pressure_on_the_slip_surface"),
 )

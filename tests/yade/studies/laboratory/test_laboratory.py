@@ -317,6 +317,21 @@ def test_calibration_finds_a_made_up_rock_and_goes_on_where_it_was_stopped(tmp_p
     assert Refuses(*options, resume=True).run((600, [1, 2]), (2500, [1]), trials=(12, 8))[1]["found"] == report["found"]
 
 
+def test_the_first_slopes_of_a_residual_cohesion_are_in_parts_of_the_peak(tmp_path):
+    """d (c_res / c) = (c_res / c) d ln c_res; where none is wanted a twentieth of the peak stands for it."""
+
+    def slopes(residual):
+        wanted = calibration.Wanted(60e3, 34.0, residual, 25.0)
+        return MadeUpRock(wanted, materials.load("wwr"), tmp_path, 1)._first_jacobian()
+
+    tenth = slopes(6e3)
+    assert tenth[2].any()
+    for residual, times in ((12e3, 2), (60e3, 10), (0.0, 0.5)):
+        found = slopes(residual)
+        assert found[2] == pytest.approx(times * tenth[2], rel=1e-12)
+        assert found[[0, 1, 3]] == pytest.approx(tenth[[0, 1, 3]])
+
+
 @pytest.mark.parametrize("parameter", ["tensile_strength", "friction"])
 @pytest.mark.parametrize("end", [0, 1])
 def test_derivatives_at_a_bound_are_of_rocks_within_it(tmp_path, parameter, end):
