@@ -4,6 +4,7 @@ YADE, no files but made-up ones.
 import ast
 import os
 import re
+from collections import Counter
 from textwrap import dedent
 
 import changes
@@ -14,7 +15,8 @@ import pytest
 import python_changes
 import workplace
 from changes import COMPARISON, CONDITION, CONSTANT, INDEX, NAME, SIGN, as_mutant, chosen, number
-from mutant import LIBRARIES, check_whole, mutant
+from mutant import LIBRARIES, check_whole, mutant, place
+from mutants import MUTANTS
 from near_tests import NearTests
 
 
@@ -436,3 +438,11 @@ def test_a_filter_of_googletest_that_selects_nothing_is_no_judge(monkeypatch, ra
     monkeypatch.setattr(judge, "run", lambda *_: [("gtest", 0, said)])
     one = mutant("m", "pkg/contact/core/a.cpp", "x", "y", "", "gtest:Suite.*")
     assert judge._verdict(None, one, 1, {}, 300, ()).outcome == outcome
+
+
+def test_no_two_mutants_have_one_name_and_each_text_stands_once():
+    """What run.py asks before it begins, here at once."""
+    assert [name for name, times in Counter(m.name for m in MUTANTS).items() if times > 1] == []
+    for one in MUTANTS:
+        for file, old, _ in one.edits:
+            place(workplace.ROOT, one, file, old)

@@ -35,7 +35,7 @@ MUTANTS = (
     # ---- scripts that go hard
     mutant("harden-damping", STRENGTHS, "math.sqrt((1 - damping) / (1 + damping))", "(1 - damping) / (1 + damping)", "damping leaves less of an impact than it does",
            HARDENING + "::test_a_spring_and_its_rigid_contact_bounce_alike"),
-    mutant("harden-rolling", STRENGTHS, "return soft.mR / diameter", "return soft.mR / 2", "rolling resistance that is a length is taken for a number", HARDENING + "::test_a_material_keeps_its_strengths"),
+    mutant("harden-visco-rolling", STRENGTHS, "return soft.mR / diameter", "return soft.mR / 2", "rolling resistance that is a length is taken for a number", HARDENING + "::test_a_material_keeps_its_strengths"),
     mutant("harden-pairs", STRENGTHS, "a.layer, b.layer = -2 - one, -2 - other", "a.layer, b.layer = -2, -2", "all materials have the law of one pair",
            HARDENING + "::test_a_pair_without_values_keeps_those_of_its_materials"),
     mutant("harden-meet", LISTS, "if not _meet(engine)", "if False", "spheres that a script leaves through each other collide", HARDENING + "::test_spheres_that_pass_through_each_other_still_do"),
