@@ -63,7 +63,16 @@ def positive(text):
 
 def add_out(parser, out, what="the results"):
     """Adds --out, the folder for ``what``, in words; ``out``: the usual one."""
-    parser.add_argument("--out", default=out, metavar="DIR", help=f"folder for {what} (default: %(default)s)")
+    parser.add_argument(
+        "--out", type=_folder, default=out, metavar="DIR", help=f"folder for {what} (default: %(default)s)"
+    )
+
+
+def _folder(text):
+    """A path that is given, and not an empty variable of a shell."""
+    if not str(text).strip():
+        raise argparse.ArgumentTypeError("it is empty: give a folder, . for this one")
+    return text
 
 
 def add_threads(parser, what, type=int):

@@ -4,7 +4,8 @@ video. Needs no YADE.
 Like this::
 
     run = runs.open_run("out/hill")
-    run.kind                           # "slope", "factor of safety", "biaxial test", "tension test", "slide" or "heap"
+    run.kind                           # "slope", "factor of safety", "biaxial test", "tension test", "slide", "heap"
+                                       # or "spheres"
     run.summary["water_at_failure_m"]
     run.series["front_m"]              # {column: array}; run.frame("series") is a pandas.DataFrame
     run.figure("forces")               # a matplotlib Figure, with axes to draw on
@@ -30,6 +31,7 @@ from .heaps import columns as heap_columns, study
 from .laboratory import biaxial_test, tension_campaign, tension_test, wall_shear
 from .safety import columns as safety_columns, results as safety_results
 from .slope import columns as slope_columns, frames, run_files
+from .spheres import columns as sphere_columns, study as sphere_study
 
 __all__ = [
     "FIGURES",
@@ -42,6 +44,7 @@ __all__ = [
     "SafetyRun",
     "SlideRun",
     "SlopeRun",
+    "SpheresRun",
     "StudyRun",
     "TensionRun",
     "open_run",
@@ -397,9 +400,31 @@ class HeapRun(StudyRun):
         return report.draw_collapse(self.heap, self.summary, self.folder)
 
 
+class SpheresRun(StudyRun):
+    """A run of a column, hopper, drum or pile of spheres in space."""
+
+    kind = "spheres"
+    COLUMNS = sphere_columns.COMMON
+    FURTHER = sphere_columns.COLUMN | sphere_columns.HOPPER | sphere_columns.DRUM | sphere_columns.PILE
+
+    @cached_property
+    def _asked(self):
+        return json.loads(self._file("request.json").read_text())["arguments"]
+
+    @cached_property
+    def scene(self):
+        """The RoundColumn, RoundHopper, TurningDrum or PlatePile that was run."""
+        return sphere_study.KINDS[self._asked["kind"]](**self._asked["scene"])
+
+    @property
+    def world(self) -> dict:
+        """What the world was asked for with, see spheres.grains.world_of."""
+        return self._asked["world"]
+
+
 def open_run(folder) -> StudyRun:
     """The run in a folder, of the kind that its section or the columns of its series tell. Raises RunError where it is
-    none.
+    none; of the folder of a study, which has runs in it, the message names them.
     """
     run = SlopeRun(folder)
     try:
@@ -412,6 +437,15 @@ def open_run(folder) -> StudyRun:
     for kind in (BiaxialRun, TensionRun, SlideRun, HeapRun):
         if names <= set(kind.COLUMNS):
             return kind(folder)
+    if set(SpheresRun.COLUMNS) <= names <= set(SpheresRun.COLUMNS | SpheresRun.FURTHER):
+        return SpheresRun(folder)
+    if not run.folder.is_dir():
+        raise RunError(f"{folder}: there is no such folder; give the folder of a run")
+    if inner := sorted(path.parent.name for path in (run.folder / "runs").glob("*/series.csv")):
+        raise RunError(
+            f"{folder}: holds the runs of a study and is none itself; open one of them, {run.folder / 'runs' / inner[0]}"
+            + (f", … {inner[-1]}" if len(inner) > 1 else "")
+        )
     raise RunError(
         f"{folder}: has no {section_data.FILE}, and no series.csv with the columns of another study, so no run of this version is here; give the folder that was given to --out"
     )

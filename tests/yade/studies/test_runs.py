@@ -10,15 +10,25 @@ import pytest
 import synthetic_slope as synthetic
 
 runs, records = synthetic.load("studies.runs"), synthetic.load("records")
-biaxial_test, tension_test, wall_shear, heap_columns = (
+biaxial_test, tension_test, wall_shear, heap_columns, sphere_columns = (
     synthetic.load(f"studies.{name}")
-    for name in ("laboratory.biaxial_test", "laboratory.tension_test", "laboratory.wall_shear", "heaps.columns")
+    for name in (
+        "laboratory.biaxial_test",
+        "laboratory.tension_test",
+        "laboratory.wall_shear",
+        "heaps.columns",
+        "spheres.columns",
+    )
 )
 STUDIES = [
     ("biaxial test", biaxial_test.COLUMNS, runs.BiaxialRun),
     ("tension test", tension_test.COLUMNS, runs.TensionRun),
     ("slide", wall_shear.COLUMNS, runs.SlideRun),
     ("heap", heap_columns.COLUMNS, runs.HeapRun),
+    ("spheres", sphere_columns.COMMON | sphere_columns.COLUMN, runs.SpheresRun),
+    ("spheres", sphere_columns.COMMON | sphere_columns.HOPPER, runs.SpheresRun),
+    ("spheres", sphere_columns.COMMON | sphere_columns.DRUM, runs.SpheresRun),
+    ("spheres", sphere_columns.COMMON | sphere_columns.PILE, runs.SpheresRun),
 ]
 
 
@@ -41,6 +51,24 @@ def test_the_columns_of_a_series_tell_what_was_run(kind, columns, made, tmp_path
     assert runs.open_run(tmp_path).summary == {"steps": 3}
     with pytest.raises(runs.RunError, match="breaks.csv: missing"):
         run.breaks
+
+
+def test_the_folder_of_a_study_names_its_runs_and_one_that_is_not_there_is_told(tmp_path):
+    for name in ("seed1", "seed2"):
+        folder = tmp_path / "runs" / name
+        folder.mkdir(parents=True)
+        written(folder, heap_columns.COLUMNS)
+    with pytest.raises(runs.RunError, match="holds the runs of a study .* open one of them, .*seed1, … seed2"):
+        runs.open_run(tmp_path)
+    with pytest.raises(runs.RunError, match="there is no such folder"):
+        runs.open_run(tmp_path / "nowhere")
+
+
+def test_a_run_of_spheres_knows_its_scene_and_its_world(tmp_path):
+    run = runs.open_run(written(tmp_path, sphere_columns.COMMON | sphere_columns.PILE))
+    asked = {"kind": "column", "scene": {"aspect": 0.5, "size": 5.0}, "world": {"name": "soft", "stiffness": 1e5}}
+    (tmp_path / "request.json").write_text(json.dumps({"arguments": asked}))
+    assert (run.scene.aspect, run.scene.size) == (0.5, 5.0) and run.world["name"] == "soft"
 
 
 def test_a_series_without_the_solvers_columns_is_still_of_its_study(tmp_path):

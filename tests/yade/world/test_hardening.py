@@ -484,6 +484,29 @@ def test_wrong_options_are_refused(tmp_path, words, message):
     assert done.returncode != 0 and message in done.stdout + done.stderr
 
 
+CLUMP = """
+from yade import utils
+O.bodies.appendClumped([utils.sphere((0, 0, 0), 0.5), utils.sphere((0.8, 0, 0), 0.5)])
+O.engines = [
+    ForceResetter(),
+    InsertionSortCollider([Bo1_Sphere_Aabb()]),
+    InteractionLoop(
+        [Ig2_Sphere_Sphere_ScGeom()], [Ip2_FrictMat_FrictMat_FrictPhys()], [Law2_ScGeom_FrictPhys_CundallStrack()]
+    ),
+    NewtonIntegrator(),
+]
+O.dt = 1e-4
+O.run(10, True)
+"""
+
+
+def test_what_cannot_go_hard_is_one_message(tmp_path):
+    (tmp_path / "clump.py").write_text(CLUMP)
+    done = launch(tmp_path, "--hard", "clump.py")
+    assert done.returncode == 1 and "Traceback" not in done.stdout + done.stderr
+    assert "clump.py: body #0 belongs to a clump" in done.stdout + done.stderr
+
+
 CHANCE = """
 import random
 from yade import pack
@@ -515,3 +538,13 @@ def test_a_script_of_chance_draws_the_same_in_both_runs_and_is_measured_before_i
     # a free fall: g t²/2, less a fifth for the integrator's damping of springs; half a step early or late
     assert float(way[1]) == pytest.approx(0.5 * 9.81 * 0.05**2, rel=0.15)
     assert float(way[0]) == pytest.approx(0.8 * 0.5 * 9.81 * 0.05**2, rel=0.15)
+
+
+def test_a_scene_that_is_rigid_is_not_hardened_again():
+    box_of_spheres()
+    O.engines = soft_engines()
+    harden(O)
+    engines, step = list(O.engines), O.dt
+    with pytest.raises(RuntimeError, match="ContactDynamicsEngine, so the contacts are rigid already"):
+        harden(O)
+    assert list(O.engines) == engines and O.dt == step

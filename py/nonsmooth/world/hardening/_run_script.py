@@ -17,4 +17,6 @@ try:
     exec(compile(_text, _path, "exec"), globals())
 except SystemExit:
     pass
+except _comparison.HardenError as _refusal:
+    _sys.exit(f"{_path}: {_refusal}")
 _comparison.end(_how, _watch, O)

@@ -8,7 +8,7 @@ import textwrap
 import numpy as np
 from tabulate import tabulate
 
-from yade.wrapper import NewtonIntegrator, NscdMat, PeriodicEngine, PyRunner, Sphere
+from yade.wrapper import ContactDynamicsEngine, NewtonIntegrator, NscdMat, PeriodicEngine, PyRunner, Sphere
 
 from . import belts
 from .energies import hear_energies
@@ -66,8 +66,13 @@ def harden(O, step=None, restitution=None, **options):
     springs, √((1 − λ)/(1 + λ)), 1 without damping; ``options``: attributes of ContactDynamicsEngine.
 
     Raises HardenError, a RuntimeError, for what has no rigid counterpart: clumps, periodic cells, shapes and laws other
-    than those above, spheres wedged between boxes, cohesion across gaps. The scene is then as it was.
+    than those above, spheres wedged between boxes, cohesion across gaps; and for a scene that is rigid already. The
+    scene is then as it was.
     """
+    if any(isinstance(e, ContactDynamicsEngine) and not e.dead for e in O.engines):
+        raise HardenError(
+            "O.engines has a ContactDynamicsEngine, so the contacts are rigid already: call harden() once, on the soft scene"
+        )
     if O.periodic:
         raise HardenError(
             "the cell is periodic, which rigid contacts are not yet: set O.periodic = False and bound the scene by walls"

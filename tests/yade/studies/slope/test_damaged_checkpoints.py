@@ -290,7 +290,7 @@ def test_a_fresh_run_takes_the_checkpoint_away_first(saved, tmp_path, monkeypatc
     folder = tmp_path / "out"
     check(saved, saved.files, folder)
     forgotten = []
-    monkeypatch.setattr(experiment.results, "forget", lambda f: forgotten.append(checkpoints.exists(f)) or 1 / 0)
+    monkeypatch.setattr(experiment.run_files, "forget", lambda f: forgotten.append(checkpoints.exists(f)) or 1 / 0)
     with pytest.raises(ZeroDivisionError):
         experiment.Experiment(
             experiment.slope.find(saved.section, saved.told["walls"], saved.told["first_disk"], saved.told["count"]),
