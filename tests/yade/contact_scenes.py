@@ -1,5 +1,6 @@
 """Small scenes that several tests share."""
 import contextlib
+import ctypes
 import dataclasses
 import math
 import os
@@ -15,7 +16,21 @@ from yade.nonsmooth.scene import contact_dynamics as engine
 from yade.wrapper import NscdMat
 
 G = 9.81
+_OPENMP = ctypes.CDLL("libgomp.so.1")
 TIGHT = dict(tolerance=1e-12, maxIterations=20000)
+
+
+@contextlib.contextmanager
+def threads_allowed(most):
+    """So many threads at most for engines that act in this thread of Python's (O.step and advance, not O.run): tests
+    run in a YADE of one, where ``ompThreads`` alone changes nothing.
+    """
+    before = _OPENMP.omp_get_max_threads()
+    _OPENMP.omp_set_num_threads(most)
+    try:
+        yield
+    finally:
+        _OPENMP.omp_set_num_threads(before)
 
 
 def material(mu=0.3, rolling=0.0, kind=NscdMat, **more):

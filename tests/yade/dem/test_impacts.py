@@ -11,7 +11,7 @@ from yade.minieigenHP import Vector3
 from yade.nonsmooth import scene, tables
 from yade.wrapper import NscdMat
 
-from contact_scenes import begin, contacts, engine, floor, free_disk, material, run
+from contact_scenes import begin, contacts, engine, floor, free_disk, material, run, threads_allowed
 from symmetries import Disk, Frame, Line, World, assert_same, play, shuffled
 
 pytestmark = pytest.mark.usefixtures("empty")
@@ -280,7 +280,8 @@ def test_the_gas_is_the_same_after_save_and_load_and_on_two_threads(tmp_path):
         for e in O.engines:
             e.ompThreads = threads
         for k in range(200):
-            run(1)
+            with threads_allowed(threads):
+                run(1)
             if saved and k in (50, 101):
                 O.save(str(tmp_path / "gas.yade.gz"), quiet=True)
                 O.load(str(tmp_path / "gas.yade.gz"), quiet=True)

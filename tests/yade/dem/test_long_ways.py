@@ -8,7 +8,7 @@ from yade import O, utils
 from yade.nonsmooth import scene
 from yade.wrapper import Bo1_Box_Aabb, Bo1_Wall_Aabb, Ig2_Box_Sphere_ScGeom, Ig2_Wall_Sphere_ScGeom, Segment
 
-from contact_scenes import G, begin, engine, floor, free_disk, material, refused, run
+from contact_scenes import G, begin, engine, floor, free_disk, material, refused, run, threads_allowed
 
 pytestmark = pytest.mark.usefixtures("empty")
 
@@ -238,7 +238,8 @@ def test_it_is_the_same_on_any_number_of_threads():
     for threads in (1, 2):
         for e in O.engines:
             e.ompThreads = threads
-        run(1)
+        with threads_allowed(threads):
+            run(1)
         ways.append(engine().wayWorst)
         O.bodies[7].state.vel = (0, 0, 0)
     assert ways[0] == ways[1]

@@ -5,10 +5,11 @@ import math
 
 import numpy as np
 import pytest
+from contact_scenes import threads_allowed
 from yade import O
 from yade.minieigenHP import Quaternion, Vector3
 from yade.nonsmooth import space
-from yade.utils import box, facet, sphere, wall
+from yade.utils import box, createInteraction, facet, sphere, wall
 from yade.wrapper import ContactDynamicsEngine, FaceGeom, NscdMat, NscdSpacePhys
 
 pytestmark = pytest.mark.usefixtures("empty")
@@ -290,7 +291,8 @@ def test_the_same_bits_on_any_number_of_threads_and_after_loading(tmp_path):
     found = {}
     for threads in (1, 2):
         build()
-        O.run(100, True)
+        with threads_allowed(threads):
+            ContactDynamicsEngine.advance(100)
         found[threads] = state()
     threads = 1
     build()
@@ -318,7 +320,8 @@ def test_sums_over_many_contacts_are_the_same_on_any_number_of_threads():
         O.step()
         solver = next(engine for engine in O.engines if isinstance(engine, ContactDynamicsEngine))
         solver.bond()
-        O.run(20, True)
+        with threads_allowed(threads):
+            solver.advance(20)
         modes = ("Tension", "Shear", "Torque", "Twisting", "Mixed")
         broken = sum(getattr(solver, f"broken{mode}") for mode in modes)
         assert solver.contacts > 2048 and broken > 20
@@ -331,6 +334,23 @@ def test_sums_over_many_contacts_are_the_same_on_any_number_of_threads():
 
     one = found(1)
     assert found(2) == one and found(3) == one
+
+
+def test_a_contact_runs_from_the_lower_id_whatever_order_yade_keeps(tmp_path):
+    from yade.nonsmooth import contact
+
+    stuff = material()
+    low, high = ball((0, 0, 0), stuff), ball((0, 0, 0.99), stuff)
+    begin(gravity=(0, 0, 0))
+    O.step()
+    O.interactions.clear()
+    createInteraction(high.id, low.id)
+    O.step()
+    (kept,) = (i for i in O.interactions if i.isReal)
+    assert (kept.id1, kept.id2) == (high.id, low.id) and kept.geom.normal[2] == -1
+    next(engine for engine in O.engines if isinstance(engine, ContactDynamicsEngine)).dump(str(tmp_path / "step.h5"))
+    problem = contact.load(str(tmp_path / "step.h5"))
+    assert problem.body.tolist() == [[low.id, high.id]] and problem.normal.tolist() == [[0, 0, 1]]
 
 
 def test_energy_is_accounted_for():
