@@ -441,7 +441,7 @@ def open_run(folder) -> StudyRun:
         return SpheresRun(folder)
     if not run.folder.is_dir():
         raise RunError(f"{folder}: there is no such folder; give the folder of a run")
-    if inner := sorted(path.parent.name for path in (run.folder / "runs").glob("*/series.csv")):
+    if inner := sorted(path.parent.name for path in whole(run.folder / "runs", "*/series.csv")):
         raise RunError(
             f"{folder}: holds the runs of a study and is none itself; open one of them, {run.folder / 'runs' / inner[0]}"
             + (f", … {inner[-1]}" if len(inner) > 1 else "")

@@ -18,5 +18,5 @@ try:
 except SystemExit:
     pass
 except _comparison.HardenError as _refusal:
-    _sys.exit(f"{_path}: {_refusal}")
+    _sys.exit(f"HardenError: {_path}: {_refusal}")
 _comparison.end(_how, _watch, O)
