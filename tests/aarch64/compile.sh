@@ -11,6 +11,6 @@ for source in pkg/contact/core/*.cpp pkg/contact/plane/*.cpp pkg/contact/space/*
     "$1" -std=c++17 -O1 -ffp-contract=off -fopenmp -Wall -Wextra -Werror -Wno-psabi -Ipkg -isystem "$3" -c "$source" -o "$2/$(echo "$source" | tr / _).o"
 done
 for header in pkg/contact/*/*.hpp; do # functions that no source of the solver calls
-    echo "#include <${header#pkg/}>" | "$1" -std=c++17 -ffp-contract=off -fopenmp -Wall -Wextra -Werror -Wno-psabi -Ipkg -x c++ -fsyntax-only -
+    echo "#include <${header#pkg/}>" | "$1" -std=c++17 -ffp-contract=off -fopenmp -Wall -Wextra -Werror -Wno-psabi -Ipkg -isystem "$3" -x c++ -fsyntax-only -
 done
 echo "$(find "$2" -name '*.o' | wc -l) sources compiled for $("$1" -dumpmachine)"
