@@ -26,10 +26,7 @@ ASPECTS = "0.5,0.7,1,1.4,2,2.8,4,5.6,8,10"
 
 def numbers(text):
     """Type of positive numbers with commas, each once."""
-    values = [arguments.positive(part) for part in text.split(",")]
-    if len(set(values)) < len(values):
-        raise argparse.ArgumentTypeError(f"{text!r}: give each number once")
-    return values
+    return arguments.each_once(text, arguments.positive)
 
 
 def read_arguments():
@@ -95,19 +92,7 @@ def read_arguments():
         metavar="FILE",
         help="text file of x y r [m] to use instead of an own packing; --aspect, --disks, --seeds and sizes then do nothing",
     )
-    parser.add_argument("--world", choices=("hard", "soft"), default="hard", help="contacts (default: hard)")
-    parser.add_argument(
-        "--path",
-        type=arguments.positive,
-        metavar="D",
-        help=f"hard: time step, as mean diameters at the speed of a free fall from the top (default: {grains.PATH_PER_STEP:g})",
-    )
-    parser.add_argument(
-        "--tolerance",
-        type=arguments.positive,
-        metavar="R",
-        help=f"hard: residual of a step (default: {grains.TOLERANCE:g})",
-    )
+    arguments.add_world(parser, grains.PATH_PER_STEP, grains.TOLERANCE, "a free fall from the top")
     parser.add_argument("--stiffness", type=arguments.positive, metavar="PA", help="soft: Young's modulus [Pa]")
     parser.add_argument(
         "--damping", type=float, metavar="L", help=f"soft: YADE's damping of forces (default: {worlds.Soft.damping:g})"

@@ -61,12 +61,9 @@ WHAT = {
 def numbers(text):
     """Type of numbers with commas, each once."""
     try:
-        values = [float(part) for part in text.split(",")]
+        return arguments.each_once(text, float)
     except ValueError:
         raise argparse.ArgumentTypeError(f"{text!r}: give numbers, separated by commas") from None
-    if len(set(values)) < len(values):
-        raise argparse.ArgumentTypeError(f"{text!r}: give each number once")
-    return values
 
 
 def read_arguments():
@@ -86,19 +83,7 @@ def read_arguments():
                     help=f"{words} (default: {getattr(usual, one.name):g})",
                 )
         arguments.add_seeds(own, [1], "seeds of sizes and places (default: 1)")
-        own.add_argument("--world", choices=("hard", "soft"), default="hard", help="contacts (default: hard)")
-        own.add_argument(
-            "--path",
-            type=arguments.positive,
-            metavar="D",
-            help=f"hard: time step, as mean diameters at the speed of a free fall (default: {grains.PATH_PER_STEP:g})",
-        )
-        own.add_argument(
-            "--tolerance",
-            type=arguments.positive,
-            metavar="R",
-            help=f"hard: residual of a step (default: {grains.TOLERANCE:g})",
-        )
+        arguments.add_world(own, grains.PATH_PER_STEP, grains.TOLERANCE, "a free fall")
         own.add_argument(
             "--reach",
             type=arguments.positive,

@@ -6,15 +6,11 @@ namespace nonsmooth::contact {
 const std::vector<const BlockKernels*>& availableKernels()
 {
 	static const BlockKernels portable = kernelsOf("portable");
-	static const auto         kernels  = [] {
-                std::vector<const BlockKernels*> found;
 #ifdef NONSMOOTH_AVX
-		if (runs(InstructionSet::Avx512)) found.push_back(&avx512Kernels());
-		if (runs(InstructionSet::Avx2)) found.push_back(&avx2Kernels());
+	static const auto kernels = runnable(&avx512Kernels(), &avx2Kernels(), portable);
+#else
+	static const auto kernels = runnable<BlockKernels>(nullptr, nullptr, portable);
 #endif
-		found.push_back(&portable);
-		return found;
-	}();
 	return kernels;
 }
 

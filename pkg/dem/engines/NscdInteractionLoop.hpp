@@ -48,6 +48,10 @@ private:
 	bool prepare(nscd::Resident& resident, const nscd::Resident::Pair& pair, const Ours& ours);
 	void visitOthers(nscd::Resident& resident, const std::vector<int>& others, const Ours& ours, int threads);
 	bool visit(const shared_ptr<Interaction>& interaction);
+	bool
+	     visit(const shared_ptr<Interaction>& interaction, const std::vector<nscd::BodyReading>& bodies,
+	           std::string& error);
+	bool areOutOfReach(const Interaction& interaction, const std::vector<nscd::BodyReading>& bodies) const;
 	void visitInSpace(const nscd::Resident& resident, int threads);
 
 	void keepFunctors();

@@ -89,6 +89,15 @@ namespace {
 			fetch<sizeof(Segment)>(body->shape.get());
 		}
 	}
+
+	/// Whether both bodies of an interaction are there and spheres, not of a derived class.
+	bool arePlain(const Interaction& i, const std::vector<nscd::BodyReading>& bodies)
+	{
+		const auto isPlain = [&](int id) {
+			return id >= 0 && id < (int)bodies.size() && bodies[id].present && bodies[id].plain;
+		};
+		return isPlain(i.getId1()) && isPlain(i.getId2());
+	}
 }
 
 /// One interaction as YADE's loop treats it; returns false where it should be erased.
@@ -124,6 +133,28 @@ bool NscdInteractionLoop::visit(const shared_ptr<Interaction>& I)
 	return cache.constLaw->go(I->geom, I->phys, I.get());
 }
 
+/// The same for a loop of threads, out of which no exception may come: its message goes to `error`, and the answer is no.
+bool NscdInteractionLoop::visit(
+        const shared_ptr<Interaction>& I, const std::vector<nscd::BodyReading>& bodies, std::string& error)
+{
+	try {
+		const bool stays = visit(I);
+		if (stays && I->isReal() && arePlain(*I, bodies)) forgetShear(I, *scene);
+		return stays;
+	} catch (const std::exception& e) {
+#pragma omp critical
+		error = e.what();
+		return false;
+	}
+}
+
+/// Two spheres that are farther apart than their functor looks; what is so need not be shown to it.
+bool NscdInteractionLoop::areOutOfReach(const Interaction& i, const std::vector<nscd::BodyReading>& bodies) const
+{
+	return ours.spheres && i.functorCache.geom.get() == ours.spheres && arePlain(i, bodies)
+	        && nscd::areBeyond(ours.spheres->interactionDetectionFactor, bodies[i.getId1()], bodies[i.getId2()]);
+}
+
 /// Contacts that go through their functors, and interactions that may become contacts.
 void NscdInteractionLoop::visitOthers(
         nscd::Resident& resident, const std::vector<int>& others, const Ours& ours, int threads)
@@ -132,15 +163,13 @@ void NscdInteractionLoop::visitOthers(
 	const auto isThere = [&](int id) {
 		return id >= 0 && id < (int)resident.bodies.size() && resident.bodies[id].present;
 	};
-	const auto& bodies  = resident.bodies;
-	const auto  isPlain = [&](int id) { return isThere(id) && bodies[id].plain; };
+	const auto& bodies = resident.bodies;
 	// what is out of reach need not be shown to its functor
 	const auto isOutOfReach = [&](const Interaction& i) {
 		if (!isThere(i.getId1()) || !isThere(i.getId2())) return false;
 		const auto &p1 = bodies[i.getId1()], &p2 = bodies[i.getId2()];
 		const auto* functor = i.functorCache.geom.get();
-		if (p1.plain && p2.plain && functor && functor == ours.spheres)
-			return nscd::areBeyond(ours.spheres->interactionDetectionFactor, p1, p2);
+		if (areOutOfReach(i, bodies)) return true;
 		if (!p1.planar || !p2.plain || !functor) return false;
 		const auto isBeyond = [&](Real factor, const auto& wall, const auto& place) {
 			const Real reach = (2 * factor - 1) * p2.radius; // of its centre from the wall
@@ -197,15 +226,7 @@ void NscdInteractionLoop::visitOthers(
 		const int                      slot  = k < known ? resident.order[others[k]].slot : -1;
 		const shared_ptr<Interaction>& I     = k < known ? list[resident.readings[slot].interaction->linIx]
 		                                                 : resident.potential[near[k - known]].interaction;
-		bool                           stays = false;
-		try {
-			stays = visit(I);
-			if (stays && isPlain(I->getId1()) && isPlain(I->getId2()) && I->isReal())
-				forgetShear(I, *scene);
-		} catch (const std::exception& e) {
-#pragma omp critical
-			error = e.what();
-		}
+		const bool                     stays = visit(I, bodies, error);
 		if (k >= known) {
 			if (!stays) list.requestErase(I);
 		} else if (stays && I->isReal())
@@ -233,17 +254,7 @@ void NscdInteractionLoop::visitInSpace(const nscd::Resident& resident, int threa
 {
 	auto&       list   = *scene->interactions;
 	const auto& bodies = resident.bodies;
-	const long  count = (long)list.size(), size = (long)bodies.size();
-	const auto  arePlain = [&](const Interaction& i) {
-                for (const long id : { i.getId1(), i.getId2() })
-                        if (id < 0 || id >= size || !bodies[id].present || !bodies[id].plain) return false;
-                return true;
-	};
-	const auto isOutOfReach = [&](const Interaction& i) { // what is so need not be shown to its functor
-		return !i.isReal() && ours.spheres && i.functorCache.geom.get() == ours.spheres && arePlain(i)
-		        && nscd::areBeyond(
-		                ours.spheres->interactionDetectionFactor, bodies[i.getId1()], bodies[i.getId2()]);
-	};
+	const long  count  = (long)list.size();
 	struct alignas(64) Part {
 		std::vector<long> ended; // places in the list
 	};
@@ -262,16 +273,8 @@ void NscdInteractionLoop::visitInSpace(const nscd::Resident& resident, int threa
 				        *scene);
 			}
 			const shared_ptr<Interaction>& I = list[k];
-			if (isOutOfReach(*I)) continue;
-			try {
-				const bool stays = visit(I);
-				if (!stays) ended.push_back(k);
-				else if (I->isReal() && arePlain(*I))
-					forgetShear(I, *scene);
-			} catch (const std::exception& e) {
-#pragma omp critical
-				error = e.what();
-			}
+			if (!I->isReal() && areOutOfReach(*I, bodies)) continue;
+			if (!visit(I, bodies, error)) ended.push_back(k);
 		}
 	}
 	if (!error.empty()) throw std::runtime_error(error);

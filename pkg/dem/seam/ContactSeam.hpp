@@ -8,6 +8,7 @@
 
 #include "GivenMotion.hpp"
 #include "Resident.hpp"
+#include "SumChunks.hpp"
 #include <contact/plane/impact_sequence.hpp>
 #include <contact/plane/rigid_clusters.hpp>
 #include <contact/plane/solver.hpp>
@@ -122,11 +123,6 @@ public:
 private:
 	/// What becomes of a contact in a step.
 	enum Part : char { None, Solved, Left };
-
-	/// Contacts or bodies that one thread takes at a time; fixed, so that sums do not depend on the number of
-	/// threads.
-	static constexpr size_t sumChunk = 1024;
-	static size_t           chunksOf(size_t count) { return (count + sumChunk - 1) / sumChunk; }
 
 	void                        gatherBodies(Scene& scene, const Vector3r& gravity);
 	void                        takeGivenMotion(const Scene& scene);

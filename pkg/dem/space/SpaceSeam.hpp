@@ -65,10 +65,6 @@ private:
 	/// What becomes of an interaction in a step.
 	enum class Part { None, Solved, Refused };
 
-	/// Contacts or bodies that are summed up together; fixed, so that sums do not depend on the number of threads.
-	static constexpr size_t sumChunk = 1024;
-	static size_t           chunksOf(size_t count) { return (count + sumChunk - 1) / sumChunk; }
-
 	void              gatherBodies(Scene& scene, const Vector3r& gravity);
 	Part              partOf(const Interaction& interaction) const;
 	[[noreturn]] void refuse(const Scene& scene, Interaction& interaction) const;

@@ -61,6 +61,32 @@ def positive(text):
     return value
 
 
+def each_once(text, read):
+    """Values with commas between them, each made by ``read``. Raises ArgumentTypeError where one is given twice, and
+    what ``read`` raises.
+    """
+    values = [read(part) for part in text.split(",")]
+    if len(set(values)) < len(values):
+        raise argparse.ArgumentTypeError(f"{text!r}: give each number once")
+    return values
+
+
+def add_world(parser, path, tolerance, fall):
+    """Adds --world and what the rigid one alone has: --path and --tolerance, whose usual values are given; ``fall``: at
+    whose speed a path is counted, in words.
+    """
+    parser.add_argument("--world", choices=("hard", "soft"), default="hard", help="contacts (default: hard)")
+    parser.add_argument(
+        "--path",
+        type=positive,
+        metavar="D",
+        help=f"hard: time step, as mean diameters at the speed of {fall} (default: {path:g})",
+    )
+    parser.add_argument(
+        "--tolerance", type=positive, metavar="R", help=f"hard: residual of a step (default: {tolerance:g})"
+    )
+
+
 def add_out(parser, out, what="the results"):
     """Adds --out, the folder for ``what``, in words; ``out``: the usual one."""
     parser.add_argument(

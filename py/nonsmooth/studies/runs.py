@@ -161,6 +161,11 @@ class StudyRun(Opened):
         """Numbers of the run. Raises RunError where it has not ended."""
         return json.loads(self._file(RESULT).read_text())["found"]
 
+    @cached_property
+    def _asked(self):
+        """Arguments of the function that made the run."""
+        return json.loads(self._file("request.json").read_text())["arguments"]
+
     @property
     def snapshots(self) -> dict:
         """Files of the snapshots, by their names: {name: path}."""
@@ -337,7 +342,7 @@ class TensionRun(StudyRun):
     @cached_property
     def test(self):
         """The TensionTest that was run."""
-        return tension_test.TensionTest.of(json.loads(self._file("request.json").read_text())["arguments"])
+        return tension_test.TensionTest.of(self._asked)
 
     @cached_property
     def strength(self) -> dict:
@@ -368,10 +373,6 @@ class HeapRun(StudyRun):
     """A run of a column or a pile."""
 
     kind, COLUMNS = "heap", heap_columns.COLUMNS
-
-    @cached_property
-    def _asked(self):
-        return json.loads(self._file("request.json").read_text())["arguments"]
 
     @cached_property
     def heap(self):
@@ -406,10 +407,6 @@ class SpheresRun(StudyRun):
     kind = "spheres"
     COLUMNS = sphere_columns.COMMON
     FURTHER = sphere_columns.COLUMN | sphere_columns.HOPPER | sphere_columns.DRUM | sphere_columns.PILE
-
-    @cached_property
-    def _asked(self):
-        return json.loads(self._file("request.json").read_text())["arguments"]
 
     @cached_property
     def scene(self):

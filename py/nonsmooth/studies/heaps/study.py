@@ -12,6 +12,7 @@ from ...running import kept_runs, side_by_side
 from ...system import checks, keys
 from ...system.whole_files import remove, whole
 from ...world import worlds
+from ...world.choice import check_choice
 from .column import GranularColumn
 from .grains import HeapError, hard
 from .pile import Pile
@@ -33,26 +34,10 @@ def world_of(heap, name="hard", path=None, tolerance=None, damping_moving=None, 
     HeapError for grains with what the springs have not: see :meth:`Heap.check_world`.
     """
     rigid = {key: value for key, value in (("path", path), ("tolerance", tolerance)) if value is not None}
-    for key, value in rigid.items():
-        checks.number(key, value, HeapError, "give a number above 0", above=0)
-    if name not in ("hard", "soft"):
-        raise HeapError(f"world {name!r}: give hard or soft")
-    why, foreign, other = (
-        ("rigid disks have no such value", soft, "soft")
-        if name == "hard"
-        else ("springs have no such value, their step is step_share of its limit", rigid, "hard")
-    )
-    if foreign:
-        told = ", ".join(f"{key} {value!r}" for key, value in foreign.items())
-        raise HeapError(f"{told} with world {name!r}: {why}; leave it out, or take world {other!r}")
-    unknown = [key for key in soft if key not in _SOFT]
-    if unknown:
-        raise HeapError(f"{', '.join(unknown)}: no value of the soft world; give some of {', '.join(_SOFT)}")
+    check_choice(name, rigid, soft, _SOFT, "disks", HeapError)
     if name == "hard":
         made = hard(heap, **rigid)
     else:
-        remedy = "the soft world needs Young's modulus in Pa, above 0"
-        checks.number("stiffness", soft.get("stiffness"), HeapError, remedy, above=0)
         made = worlds.Soft(diameter=heap.diameters(), **soft)
         remedy = "the time step in units of its stability limit; give a number above 0, to 1 at most"
         checks.number("step_share", made.step_share, HeapError, remedy, above=0, most=1)

@@ -20,13 +20,13 @@ from ... import records
 from ...course import driver
 from ...measure import sphere_heaps as measures
 from ...records import checkpoints
-from ...system import checks, keys
+from ...system import checks
 from ...world.stepping import advance, until
 from . import places as files, preparation, scene as scenes
 from .columns import COMMON
-from .grains import SphereScene, SpheresError, world_of
+from .grains import SphereScene, SpheresError, key_of, world_of
 
-__all__ = ["columns_of", "key_of", "run"]
+__all__ = ["columns_of", "run"]
 
 RECORDS = 20  # to T
 REST_SPEED = 0.02  # √(g d), rms speed of what must rest, at rest ...
@@ -40,11 +40,6 @@ def columns_of(kind):
     """{name: Column} of the series of a kind of SphereScene."""
     own = [name for name in COMMON if name != "wall_s"]
     return {name: COMMON[name] for name in own} | kind.COLUMNS | {"wall_s": COMMON["wall_s"]}
-
-
-def key_of(scene, world, duration):
-    """Key of a run: of all that its result depends on but engines and code."""
-    return keys.key_of({"scene": scene.plain(), "world": [world.name, asdict(world)], "duration": duration})
 
 
 class SphereCourse(driver.Course):

@@ -9,10 +9,11 @@ import numpy as np
 
 from ...errors import UserError
 from ...model.section import units
-from ...system import checks
+from ...system import checks, keys
 from ...world import sphere_worlds as worlds
+from ...world.choice import check_choice
 
-__all__ = ["PATH_PER_STEP", "TOLERANCE", "SphereScene", "SpheresError", "world_of"]
+__all__ = ["PATH_PER_STEP", "TOLERANCE", "SphereScene", "SpheresError", "key_of", "world_of"]
 
 PATH_PER_STEP = 0.1  # mean diameters, at the speed of a free fall from the top
 TOLERANCE = 1e-4  # of the solver's residual, relative
@@ -194,29 +195,18 @@ def world_of(scene, name="hard", path=None, tolerance=None, reach=None, **soft):
     """
     given = (("path", path), ("tolerance", tolerance), ("reach", reach))
     rigid = {key: value for key, value in given if value is not None}
-    for key, value in rigid.items():
-        checks.number(key, value, SpheresError, "give a number above 0", above=0)
-    if name not in ("hard", "soft"):
-        raise SpheresError(f"world {checks.shown(name)}: give hard or soft")
-    why, foreign, other = (
-        ("rigid spheres have no such value", soft, "soft")
-        if name == "hard"
-        else ("springs have no such value, their step is step_share of its limit", rigid, "hard")
-    )
-    if foreign:
-        told = ", ".join(f"{key} {checks.shown(value)}" for key, value in foreign.items())
-        raise SpheresError(f"{told} with world {name!r}: {why}; leave it out, or take world {other!r}")
-    unknown = [key for key in soft if key not in _SOFT]
-    if unknown:
-        raise SpheresError(f"{', '.join(unknown)}: no value of the soft world; give some of {', '.join(_SOFT)}")
+    check_choice(name, rigid, soft, _SOFT, "spheres", SpheresError)
     if name == "hard":
         return worlds.HardSpheres(
             time_step=scene.time_step(PATH_PER_STEP if path is None else path),
             tolerance=TOLERANCE if tolerance is None else tolerance,
             **({} if reach is None else {"reach": reach}),
         )
-    remedy = "the soft world needs Young's modulus in Pa, above 0"
-    checks.number("stiffness", soft.get("stiffness"), SpheresError, remedy, above=0)
     made = worlds.SoftSpheres(diameter=scene.diameters(), **soft)
     scene.check_world(made)
     return made
+
+
+def key_of(scene, world, duration):
+    """Key of a run: of all that its result depends on but engines and code. ``world``: one of :func:`world_of`."""
+    return keys.key_of({"scene": scene.plain(), "world": [world.name, asdict(world)], "duration": duration})

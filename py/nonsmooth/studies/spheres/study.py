@@ -8,10 +8,10 @@ from dataclasses import asdict
 from pathlib import Path
 
 from ...running import kept_runs, side_by_side
-from ...system import checks, keys
+from ...system import checks
 from .column import RoundColumn
 from .drum import TurningDrum
-from .grains import SpheresError, world_of
+from .grains import SpheresError, key_of, world_of
 from .hopper import RoundHopper
 from .pile import PlatePile
 
@@ -43,13 +43,12 @@ def planned(name, folder, scene, world, duration=None) -> side_by_side.Run:
     if duration is not None:
         checks.number("duration", duration, SpheresError, "give a number above 0, in units of T", above=0)
     made = world_of(scene, **world)
-    told = {"scene": scene.plain(), "world": [made.name, asdict(made)], "duration": duration}
     return side_by_side.Run(
         name,
         Path(folder),
         one,
         {"kind": scene.KIND, "scene": asdict(scene), "world": world, "duration": duration},
-        keys.key_of(told),
+        key_of(scene, made, duration),
         scene.count() * scene.depth() / scene.diameter,
     )
 
