@@ -7,7 +7,7 @@ of a power law, fitted as a line to logarithms, below and above the aspect ratio
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass
+from dataclasses import asdict, dataclass
 
 import numpy as np
 from scipy import stats
@@ -65,6 +65,10 @@ class Fit:
     def __call__(self, a):
         """The fit at ``a``."""
         return self.factor * np.asarray(a, float) ** self.exponent
+
+    def plain(self):
+        """A dictionary for records, with None for an interval that two points do not give."""
+        return asdict(self) | {"exponent_95": None if math.isnan(self.exponent_95) else self.exponent_95}
 
 
 def fit(a, values):

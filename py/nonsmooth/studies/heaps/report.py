@@ -69,10 +69,7 @@ def summarise(found):
                 None
                 if fit is None
                 else {
-                    "factor": fit.factor,
-                    "exponent": fit.exponent,
-                    "exponent_95": None if math.isnan(fit.exponent_95) else fit.exponent_95,
-                    "points": fit.points,
+                    **fit.plain(),
                     "change": CHANGES[name],
                     "published": [
                         {

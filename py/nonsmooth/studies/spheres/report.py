@@ -4,7 +4,6 @@ figures.
 
 from __future__ import annotations
 
-import math
 from pathlib import Path
 
 import numpy as np
@@ -97,10 +96,7 @@ def _fits(found):
                 None
                 if fit is None
                 else {
-                    "factor": fit.factor,
-                    "exponent": fit.exponent,
-                    "exponent_95": None if math.isnan(fit.exponent_95) else fit.exponent_95,
-                    "points": fit.points,
+                    **fit.plain(),
                     "change": law.change,
                     "published_factor": factor,
                     "published_exponent": exponent,
