@@ -7,11 +7,14 @@ struct Vector {
 	double x = 0, y = 0, z = 0;
 };
 
-inline Vector operator+(const Vector& a, const Vector& b) { return { a.x + b.x, a.y + b.y, a.z + b.z }; }
+[[gnu::always_inline]] inline Vector operator+(const Vector& a, const Vector& b)
+{
+	return { a.x + b.x, a.y + b.y, a.z + b.z };
+}
 inline Vector operator-(const Vector& a, const Vector& b) { return { a.x - b.x, a.y - b.y, a.z - b.z }; }
 inline Vector operator*(double s, const Vector& a) { return { s * a.x, s * a.y, s * a.z }; }
 inline double dot(const Vector& a, const Vector& b) { return a.x * b.x + a.y * b.y + a.z * b.z; }
-inline Vector cross(const Vector& a, const Vector& b)
+[[gnu::always_inline]] inline Vector cross(const Vector& a, const Vector& b)
 {
 	return { a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x };
 }

@@ -1,5 +1,6 @@
 #include "ContactDynamicsEngine.hpp"
 #include "../seam/EngineRoles.hpp"
+#include "../seam/Recall.hpp"
 #include "Gravity.hpp"
 #include "NonsmoothTimeStepper.hpp"
 #include "../checks/PlaneCheck.hpp"
@@ -46,13 +47,10 @@ void ContactDynamicsEngine::action()
 	stepSolved = scene->dt;
 	reportChanges(resident);
 	timer.next(Stage::Solve);
-	impactsFollowed = seam.followImpacts(maxImpacts);
-	auto statistics = contact::solve(seam.problem, settings(), &workspace);
-	while (seam.recall() > 0) {
-		const int before = statistics.iterations;
-		statistics       = contact::solve(seam.problem, settings(), &workspace);
-		statistics.iterations += before;
-	}
+	impactsFollowed       = seam.followImpacts(maxImpacts);
+	const auto statistics = nscd::solveWithRecalls(seam, [&] {
+		return contact::solve(seam.problem, settings(), &workspace);
+	});
 	seam.answerGivenMotion();
 	timer.next(Stage::Correct);
 	seam.correct(settings(), workspace, correctionSweeps);

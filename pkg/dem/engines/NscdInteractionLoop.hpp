@@ -52,6 +52,7 @@ private:
 	     visit(const shared_ptr<Interaction>& interaction, const std::vector<nscd::BodyReading>& bodies,
 	           std::string& error);
 	bool areOutOfReach(const Interaction& interaction, const std::vector<nscd::BodyReading>& bodies) const;
+	bool isOfSpheres(const Interaction& interaction, const std::vector<nscd::BodyReading>& bodies) const;
 	void visitInSpace(const nscd::Resident& resident, int threads);
 
 	void keepFunctors();

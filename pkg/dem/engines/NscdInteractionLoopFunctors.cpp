@@ -4,6 +4,7 @@
 #include "../materials/Law2_ScGeom_NscdPhys_SignoriniCoulomb.hpp"
 #include "NscdInteractionLoop.hpp"
 #include "../seam/PythonMade.hpp"
+#include "../space/NscdSpacePhys.hpp"
 #include "../walls/Segment.hpp"
 #include "../checks/UnguardedHeaders.hpp"
 #include "../seam/Prefetch.hpp"
@@ -30,6 +31,20 @@ namespace {
 		        *Body::byId(I->getId1(), &scene)->state, *Body::byId(I->getId2(), &scene)->state, &scene, I,
 		        Vector3r(geom.normal), true, Vector3r::Zero());
 		geom.shearInc = Vector3r::Zero();
+	}
+
+	/// Geometry of two spheres in the order of operations of Ig2_Sphere_Sphere_ScGeom, without what soft laws need;
+	/// its axes are none since the contact went through its functors (forgetShear).
+	void setGeometry(ScGeom& geom, const nscd::BodyReading& first, const nscd::BodyReading& second)
+	{
+		const Vector3r from = first.place(), way = second.place() - from;
+		const Real     distance = way.norm();
+		geom.normal             = way / distance;
+		geom.penetrationDepth   = first.radius + second.radius - distance;
+		geom.contactPoint       = from + (first.radius - 0.5 * geom.penetrationDepth) * geom.normal;
+		geom.radius1            = first.radius;
+		geom.radius2            = second.radius;
+		geom.shearInc           = Vector3r::Zero();
 	}
 
 	/// Of two bodies whose contact lacks a functor for what `a` and `b` have; `remedy`: which one, or what else
@@ -100,6 +115,14 @@ namespace {
 	}
 }
 
+/// Whether a contact is one of two spheres whose functors do what is known, so that they need not be called.
+bool NscdInteractionLoop::isOfSpheres(const Interaction& i, const std::vector<nscd::BodyReading>& bodies) const
+{
+	const auto& cache = i.functorCache;
+	return ours.spheres && ours.law && i.isReal() && cache.geom.get() == ours.spheres
+	        && cache.constLaw.get() == ours.law && arePlain(i, bodies) && typeid(*i.geom) == typeid(ScGeom);
+}
+
 /// One interaction as YADE's loop treats it; returns false where it should be erased.
 bool NscdInteractionLoop::visit(const shared_ptr<Interaction>& I)
 {
@@ -138,6 +161,10 @@ bool NscdInteractionLoop::visit(
         const shared_ptr<Interaction>& I, const std::vector<nscd::BodyReading>& bodies, std::string& error)
 {
 	try {
+		if (isOfSpheres(*I, bodies)) {
+			setGeometry(static_cast<ScGeom&>(*I->geom), bodies[I->getId1()], bodies[I->getId2()]);
+			return I->functorCache.constLaw->go(I->geom, I->phys, I.get());
+		}
 		const bool stays = visit(I);
 		if (stays && I->isReal() && arePlain(*I, bodies)) forgetShear(I, *scene);
 		return stays;
@@ -268,9 +295,13 @@ void NscdInteractionLoop::visitInSpace(const nscd::Resident& resident, int threa
 			if (k + (long)later < count) fetch<sizeof(Interaction)>(list[k + later].get());
 			if (k + (long)soon < count && list[k + soon]->isReal()) {
 				const Interaction& next = *list[k + soon];
-				fetchObjects(
-				        { &next, next.geom.get(), next.phys.get(), next.getId1(), next.getId2() },
-				        *scene);
+				fetch<sizeof(ScGeom)>(next.geom.get());
+				fetch<sizeof(NscdSpacePhys)>(next.phys.get());
+				if (!ours.spheres || next.functorCache.geom.get() != ours.spheres)
+					fetchObjects(
+					        { &next, next.geom.get(), next.phys.get(), next.getId1(),
+					          next.getId2() },
+					        *scene);
 			}
 			const shared_ptr<Interaction>& I = list[k];
 			if (!I->isReal() && areOutOfReach(*I, bodies)) continue;

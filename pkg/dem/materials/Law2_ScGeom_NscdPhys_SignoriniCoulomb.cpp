@@ -64,7 +64,7 @@ bool Law2_ScGeom_NscdPhys_SignoriniCoulomb::go(shared_ptr<IGeom>& ig, shared_ptr
 		}
 	}
 	if (!keeps(phys, gap)) return false;
-	if (!phys.bonded && !phys.breaks) {
+	if (!phys.bonded && !phys.breaks && typeid(geom) != typeid(ScGeom)) {
 		const auto* wall = dynamic_cast<const SegmentGeom*>(&geom);
 		const auto* face = dynamic_cast<const FaceGeom*>(&geom);
 		if ((wall && !wall->owned) || (face && !face->owned)) return false;

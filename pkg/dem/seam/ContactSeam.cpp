@@ -1,5 +1,6 @@
 #include "ContactSeam.hpp"
 #include "Prefetch.hpp"
+#include "Recall.hpp"
 #include "../checks/PlaneCheck.hpp"
 #include "../checks/Refusal.hpp"
 #include "../checks/SceneCheck.hpp"
@@ -354,9 +355,8 @@ bool ContactSeam::mustBeSolved(const Reading& reading) const
 	if (reading.bonded || reading.broken != NscdPhys::None || reading.gap <= widest) return true;
 	Contact c;
 	setFrame(reading, c);
-	const Real closing = std::min(
-	        Real(0), contact::relativeVelocity(c, problem.freeVelocity[c.i], problem.freeVelocity[c.j]).n);
-	return reading.gap + 1.2 * relaxation.step * closing <= widest;
+	const Real speed = contact::relativeVelocity(c, problem.freeVelocity[c.i], problem.freeVelocity[c.j]).n;
+	return !staysOpen(reading.gap, speed, relaxation.step, widest);
 }
 
 } // namespace yade::nscd

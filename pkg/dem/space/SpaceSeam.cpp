@@ -40,9 +40,6 @@ namespace {
 
 	/// Inverse of a number that resists, 0 in a blocked direction.
 	Real inverseIn(unsigned blocked, unsigned axis, Real value) { return blocked & axis ? 0 : 1 / value; }
-
-	/// What of an error of a bond's length, either way, goes beyond the slack.
-	Real beyondSlack(Real error, Real slack) { return error - std::max(-slack, std::min(slack, error)); }
 }
 
 bool isInSpace(const Scene& scene, const std::vector<BodyReading>& bodies)
@@ -76,6 +73,7 @@ void SpaceSeam::gather(Scene& scene, const Vector3r& gravity, const Relaxation& 
 {
 	relaxation = how;
 	threads    = threadCount;
+	recalls    = 0;
 	gatherBodies(scene, gravity);
 	findContacts(scene);
 	const long count = (long)links.size();
@@ -183,21 +181,21 @@ void SpaceSeam::gatherBodies(Scene& scene, const Vector3r& gravity)
 }
 
 /// What becomes of an interaction; Refused: the step cannot be made with it, see refuse().
-SpaceSeam::Part SpaceSeam::partOf(const Interaction& I) const
+SpaceSeam::Use SpaceSeam::useOf(const Interaction& I) const
 {
-	if (!I.isReal() || !I.isActive) return Part::None;
+	if (!I.isReal() || !I.isActive) return Use::None;
 	const int id1 = I.getId1(), id2 = I.getId2();
-	if (!bodies[id1].present || !bodies[id2].present) return Part::None;
+	if (!bodies[id1].present || !bodies[id2].present) return Use::None;
 	NscdPhys* phys = cohesiveOf(*I.phys);
-	if (!phys) return Part::Refused;
+	if (!phys) return Use::Refused;
 	const bool inSpace = typeid(*phys) == typeid(NscdSpacePhys);
 	if (problem.inverseMass[id1].isFixed() && problem.inverseMass[id2].isFixed() && !inSpace
 	    && typeid(*phys) == typeid(NscdPhys))
-		return Part::None; // of two bodies that are held, as in no plane and no space
-	if (!inSpace || !std::isfinite(static_cast<const ScGeom&>(*I.geom).normal.sum())) return Part::Refused;
+		return Use::None; // of two bodies that are held, as in no plane and no space
+	if (!inSpace || !std::isfinite(static_cast<const ScGeom&>(*I.geom).normal.sum())) return Use::Refused;
 	phys->hearReset();
 	const bool makesSense = static_cast<NscdSpacePhys*>(phys)->makesSenseAtOnce() || !phys->senseless().first;
-	return !makesSense || phys->unheard() || !(phys->length > 0) ? Part::Refused : Part::Solved;
+	return !makesSense || phys->unheard() || !(phys->length > 0) ? Use::Refused : Use::Solved;
 }
 
 /// Says why an interaction cannot be taken.
@@ -224,35 +222,40 @@ void SpaceSeam::refuse(const Scene& scene, Interaction& I) const
 	refuseContact(scene, reading);
 }
 
-/// All real interactions of rigid contacts, in the order of ids.
+/// All real interactions of rigid contacts: those to be solved for in the order of ids, and those that are left out.
 void SpaceSeam::findContacts(Scene& scene)
 {
 	auto&      list  = *scene.interactions;
 	const long count = (long)list.size();
 	long       bad   = count; // the first one that cannot be taken, refused after the loop, which must not throw
 	found.resize(threads);
-	for (auto& part : found)
+	for (auto& part : found) {
 		part.links.clear();
+		part.left.clear();
+	}
 #pragma omp parallel num_threads(threads) reduction(min : bad)
 	{
-		auto& links = nonsmooth::neighbours::partOfThread(found).links;
+		auto& part = nonsmooth::neighbours::partOfThread(found);
 #pragma omp for schedule(static)
 		for (long k = 0; k < count; ++k) {
 			if (k + (long)later < count) fetch<sizeof(Interaction)>(list[k + later].get());
 			if (k + (long)soon < count) {
 				fetch<partOfGeometry>(list[k + soon]->geom.get());
-				fetch<partOfPhysics>(list[k + soon]->phys.get());
+				fetch<sizeof(NscdSpacePhys)>(list[k + soon]->phys.get());
 			}
-			Interaction& I    = *list[k];
-			const Part   part = partOf(I);
-			if (part == Part::Refused) bad = std::min(bad, k);
-			if (part != Part::Solved) continue;
+			Interaction& I     = *list[k];
+			const Use    isFor = useOf(I);
+			if (isFor == Use::Refused) bad = std::min(bad, k);
+			if (isFor != Use::Solved) continue;
 			const int  id1 = I.getId1(), id2 = I.getId2();
 			const bool both    = bodies[id1].radius > 0 && bodies[id2].radius > 0;
 			const bool swapped = both ? id1 > id2 : bodies[id1].radius > 0;
 			const Real gap     = -static_cast<const ScGeom&>(*I.geom).penetrationDepth;
 			auto*      phys    = static_cast<NscdPhys*>(I.phys.get());
-			links.push_back({ &I, phys, swapped ? id2 : id1, swapped ? id1 : id2, swapped, gap });
+			const Link link { &I, phys, swapped ? id2 : id1, swapped ? id1 : id2, swapped, gap };
+			if (mustBeSolved(link)) part.links.push_back(link);
+			else
+				leaveOut(link, part.left);
 		}
 	}
 	if (bad < count) refuse(scene, *list[bad]);
@@ -267,20 +270,19 @@ void SpaceSeam::findContacts(Scene& scene)
 		std::sort(
 		        links.begin() + linksBefore[id], links.begin() + linksBefore[id + 1],
 		        [](const Link& a, const Link& b) { return std::max(a.i, a.j) < std::max(b.i, b.j); });
+	left.clear();
+	for (const auto& part : found)
+		left.insert(left.end(), part.left.begin(), part.left.end());
 }
 
-void SpaceSeam::gatherContact(size_t k)
+/// Bodies, normal and levers of a contact.
+void SpaceSeam::setFrame(const Link& link, space::Contact& c) const
 {
-	const Link& link = links[k];
 	const auto& geom = static_cast<const ScGeom&>(*link.interaction->geom);
-	auto&       phys = static_cast<NscdSpacePhys&>(*link.phys);
-	const Real  h    = relaxation.step;
-	auto&       c    = problem.contacts[k];
-	const Real  sign = link.swapped ? -1 : 1;
 	c                = {};
 	c.i              = link.i;
 	c.j              = link.j;
-	c.n              = sign * ours(geom.normal);
+	c.n              = Real(link.swapped ? -1 : 1) * ours(geom.normal);
 	const auto arm   = [&](int id, Real side, Real& lever, space::Vector& aside) {
                 if (bodies[id].radius > 0) { // through a sphere's centre
                         lever = side * (bodies[id].radius + 0.5 * link.gap);
@@ -292,11 +294,20 @@ void SpaceSeam::gatherContact(size_t k)
 	};
 	arm(c.i, 1, c.leverI, c.asideI);
 	arm(c.j, -1, c.leverJ, c.asideJ);
+	c.length = link.phys->length;
+}
+
+void SpaceSeam::gatherContact(size_t k)
+{
+	const Link& link = links[k];
+	auto&       phys = static_cast<NscdSpacePhys&>(*link.phys);
+	const Real  h = relaxation.step, sign = link.swapped ? -1 : 1;
+	auto&       c = problem.contacts[k];
+	setFrame(link, c);
 	c.adhesion    = h * phys.adhesion;
 	c.friction    = phys.currentFriction;
 	c.rollingArm  = phys.currentRollingArm;
 	c.twistingArm = phys.currentTwistingArm;
-	c.length      = phys.length;
 	c.biasN       = !phys.bonded && link.gap > 0 ? link.gap / h : 0;
 	if (phys.bonded && phys.closes && phys.restGap > 0) { // play, as in the plane (contact/plane/bond.hpp)
 		c.biasN = std::max(link.gap, Real(0)) / h;
@@ -328,56 +339,6 @@ int SpaceSeam::overlapsOf(Real least) const
 	return int(std::count_if(links.begin(), links.end(), [&](const Link& l) {
 		return -l.gap >= least * l.phys->length;
 	}));
-}
-
-void SpaceSeam::correct(const space::SolverSettings& settings, space::Workspace& workspace, int sweeps)
-{
-	correction.displacements.clear();
-	if (sweeps == 0 || relaxation.rate == 0) return;
-	const Real h = relaxation.step, most = h * relaxation.largestSpeed;
-	errors.resize(links.size());
-	bool any = false;
-#pragma omp parallel for schedule(static) num_threads(threads) reduction(|| : any)
-	for (long k = 0; k < (long)links.size(); ++k) {
-		const auto& c     = problem.contacts[k];
-		const Real  slack = relaxation.slack * c.length, gap = links[k].gap;
-		const Real  end = gap + h * relativeVelocity(c, problem.velocities[c.i], problem.velocities[c.j]).n;
-		// of what was wrong before the step the share 1 − κ may stay; what the step adds may not
-		auto& e          = errors[k];
-		e                = {};
-		const auto stays = [this](Real wrong) { return (1 - relaxation.rate) * wrong; };
-		e.impulse        = links[k].phys->correction;
-		e.held           = isHeld(k);
-		if (!e.held) {
-			e.error = end + slack - stays(std::min(Real(0), gap + slack));
-			if (e.error < 0) e.error = std::max(-most, e.error);
-			any = any || e.error < 0;
-			continue;
-		}
-		const Real rest = links[k].phys->restGap;
-		if (!(c.play > 0)) {
-			e.error = beyondSlack(end - rest, slack) - stays(beyondSlack(gap - rest, slack));
-			e.error = std::max(-most, std::min(most, e.error));
-			any     = any || e.error != 0;
-			continue;
-		}
-		// between touch and its length nothing is wrong
-		const Real touched = end + slack - stays(std::min(Real(0), gap + slack)),
-		           drawn   = end - rest - slack - stays(std::max(Real(0), gap - rest - slack));
-		e.error            = std::max(-most, touched);
-		e.play             = std::max(Real(0), e.error - std::min(most, drawn));
-		any                = any || e.error < 0 || e.error > e.play;
-	}
-	if (any) correctPositions(problem, settings, workspace, errors, sweeps, correction);
-}
-
-/// Whether a bond holds its length in this step.
-bool SpaceSeam::isHeld(size_t k) const
-{
-	if (!links[k].phys->bonded) return false;
-	const auto& c = problem.contacts[k];
-	const auto  u = relativeVelocity(c, problem.velocities[c.i], problem.velocities[c.j]);
-	return !space::yieldsInTension(c, rowsOf(c, problem.impulses[k]), u.n);
 }
 
 } // namespace yade::nscd

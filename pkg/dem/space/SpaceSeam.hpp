@@ -21,7 +21,10 @@ public:
 	/// Makes the contact problem of a step; throws std::runtime_error naming the body or interaction that cannot be
 	/// taken.
 	void gather(Scene& scene, const Vector3r& gravity, const Relaxation& relaxation, int threads);
-	/// After the solve: finds how far bodies are to be displaced to take back overlaps; scatter moves them.
+	/// After a solve: takes in the contacts left out of it that its velocities would close; returns how many. They
+	/// need another solve (seam/Recall.hpp).
+	size_t recall();
+	/// After all solves: finds how far bodies are to be displaced to take back overlaps; scatter moves them.
 	void
 	correct(const nonsmooth::contact::space::SolverSettings& settings,
 	        nonsmooth::contact::space::Workspace& workspace, int sweeps);
@@ -54,21 +57,31 @@ private:
 		bool         swapped; // i is the interaction's second body
 		Real         gap;
 	};
-	/// Links that one thread has found.
+	/// A contact that is left out of the solve, with its bodies, normal, levers and length.
+	struct Left {
+		Link                               link;
+		nonsmooth::contact::space::Contact contact;
+	};
+	/// What one thread has found.
 	struct alignas(64) Found {
 		std::vector<Link> links;
+		std::vector<Left> left;
 	};
 	/// What a part of the contacts, or of the bodies, adds up to.
 	struct Sums : StepSums {
 		std::vector<std::pair<int, const Interaction*>> breaks; // (mode, interaction)
 	};
 	/// What becomes of an interaction in a step.
-	enum class Part { None, Solved, Refused };
+	enum class Use { None, Solved, Refused };
 
 	void              gatherBodies(Scene& scene, const Vector3r& gravity);
-	Part              partOf(const Interaction& interaction) const;
+	Use               useOf(const Interaction& interaction) const;
 	[[noreturn]] void refuse(const Scene& scene, Interaction& interaction) const;
 	void              findContacts(Scene& scene);
+	void              setFrame(const Link& link, nonsmooth::contact::space::Contact& result) const;
+	bool              mustBeSolved(const Link& link) const;
+	void              leaveOut(const Link& link, std::vector<Left>& result) const;
+	void              takeIn(const std::vector<size_t>& taken);
 	void              gatherContact(size_t k);
 	bool              isHeld(size_t contact) const;
 	void              sumReactions();
@@ -81,6 +94,8 @@ private:
 	std::vector<BodyState>                                bodies; // by id
 	std::vector<Link>                                     links; // by contact of the problem
 	std::vector<Found>                                    found; // by thread, in no order
+	std::vector<Left>                                     left; // in no order
+	int                                                   recalls = 0; // of this step
 	std::vector<int>                                      linksBefore; // of each body as the one of lower id
 	std::vector<nonsmooth::contact::space::PositionError> errors;
 	nonsmooth::contact::space::PositionCorrection         correction;

@@ -1,5 +1,6 @@
 // The step of ContactDynamicsEngine where bodies move in space: gather, solve, correct, scatter, as in the plane.
 #include "../engines/ContactDynamicsEngine.hpp"
+#include "../seam/Recall.hpp"
 #include <contact/space/residual.hpp>
 #include <sstream>
 
@@ -18,7 +19,9 @@ void ContactDynamicsEngine::stepInSpace(nscd::StageTimer& timer, const Vector3r&
 	timer.next(Stage::Solve);
 	contact::space::SolverSettings how;
 	static_cast<contact::SweepSettings&>(how) = settings();
-	const auto statistics                     = contact::space::solve(inSpace.problem, how, &workspaceInSpace);
+	const auto statistics                     = nscd::solveWithRecalls(inSpace, [&] {
+                return contact::space::solve(inSpace.problem, how, &workspaceInSpace);
+        });
 	timer.next(Stage::Correct);
 	inSpace.correct(how, workspaceInSpace, correctionSweeps);
 	timer.next(Stage::Scatter);

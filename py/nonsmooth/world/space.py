@@ -27,7 +27,14 @@ from yade.wrapper import (
 from ..system import checks
 from .error import SceneError
 
-__all__ = ["SHAPES", "bounds", "engines", "loop"]
+__all__ = ["OPEN_GAP", "REACH", "SHAPES", "bounds", "engines", "loop"]
+
+#: Gap up to which contacts are known beforehand [ℓ]: more than the longest way of a step, a tenth of a diameter, so that
+#: what is fast does not overlap before it is seen.
+REACH = 0.12
+#: Gap beyond which the solve leaves out a contact that will not close [ℓ]. Open contacts slow sweeps down, in space more
+#: than in the plane: there are more of them.
+OPEN_GAP = 0.02
 
 #: Shapes that rigid spheres can touch in space: the functors of their boxes and of their contacts with spheres.
 SHAPES = {
@@ -56,14 +63,14 @@ def loop(reach, adhesion_range=1e-3, shapes=SHAPES, **options):
 
 
 def engines(
-    gravity=(0, 0, -9.81), reach=0.05, before=(), after=(), label="contactDynamics", adhesion_range=1e-3, **options
+    gravity=(0, 0, -9.81), reach=REACH, before=(), after=(), label="contactDynamics", adhesion_range=1e-3, **options
 ):
     """The list O.engines of a Contact Dynamics simulation of spheres in space, with facets, boxes and walls.
 
     ``gravity`` [m/s²]; ``reach``: gap up to which contacts are known beforehand, in units of ℓ, the sum of the radii
     or, at a wall, the sphere's diameter; ``before``: engines that add forces; ``after``: engines after the integrator,
     RotationEngine and its like; ``adhesion_range``: gap up to which the residual tensile strength acts, in units of ℓ;
-    ``options``: attributes of ContactDynamicsEngine. Bodies are YADE's own (``sphere``, ``facet``, ``box``, ``wall``)
+    ``options``: attributes of ContactDynamicsEngine, whose openGap is OPEN_GAP here. Bodies are YADE's own (``sphere``, ``facet``, ``box``, ``wall``)
     with an NscdMat. Raises AttributeError for an option that the engine has not.
     """
     checks.numbers_of("gravity", gravity, SceneError, "give (x, y, z) [m/s²], as (0, 0, -9.81)", 3, 3)
@@ -74,7 +81,7 @@ def engines(
         InsertionSortCollider(bounds(reach)),
         loop(reach, adhesion_range),
         *before,
-        ContactDynamicsEngine(label=label, **options),
+        ContactDynamicsEngine(**{"label": label, "openGap": OPEN_GAP, **options}),
         NewtonIntegrator(damping=0, gravity=gravity),
         *after,
     ]

@@ -57,7 +57,7 @@ class HardSpheres:
 
     time_step: float
     tolerance: float = 1e-4
-    reach: float = 0.12
+    reach: float = 0.12  # that of space.engines, which YADE's Python alone can import
     options: dict = field(default_factory=dict)
     name = "hard"
 

@@ -20,10 +20,10 @@ MUTANTS = (
     # ---- seam: gather
     mutant("gather-torque", SEAM, "if (w.w > 0) v.w += h * m[2] * w.w;", "if (w.w > 0) v.w += m[2] * w.w;", "a torque of another engine lacks the time step",
            "test_bonds.py::test_reactions_at_the_threshold"),
-    mutant("gather-closing", SEAM, "reading.gap + 1.2 * relaxation.step * closing <= widest", "reading.gap - 1.2 * relaxation.step * closing <= widest",
+    mutant("gather-closing", "pkg/dem/seam/Recall.hpp", "gap + 1.2 * h * std::min(Real(0), speed) > widest", "gap - 1.2 * h * std::min(Real(0), speed) > widest",
            "a gap that closes is left out of the solve", "test_engine.py::test_fast_approach_is_solved_before_it_overlaps",
            "test_engine.py::test_gaps_that_stay_open_are_left_out"),
-    mutant("gather-recall", "pkg/dem/seam/ContactSeamRecall.cpp", "gapAfter(k) < -unseen * leftContacts[k].length", "gapAfter(k) < -leftContacts[k].length",
+    mutant("gather-recall", "pkg/dem/seam/Recall.hpp", "gapAfter(k) < -unseen * lengthOf(k)", "gapAfter(k) < -lengthOf(k)",
            "contacts left out are recalled a diameter too late", "test_engine.py::test_who_is_hit_hits_the_next_without_overlap"),
     mutant("gather-lever", SEAM, "contact::plane::setDiskFrame(c, i, j, nx, ny, radius[i], radius[j], reading.gap)",
            "contact::plane::setDiskFrame(c, i, j, nx, ny, radius[j], radius[i], reading.gap)", "the levers of two disks are exchanged",

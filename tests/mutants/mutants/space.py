@@ -4,7 +4,7 @@ from mutant import mutant
 SEAM, BOND, LAW = "pkg/dem/space/SpaceSeam.cpp", "pkg/dem/space/SpaceBond.cpp", "pkg/contact/space/bond.hpp"
 FACE, JOINTS, NEAR, PHYS = "pkg/dem/space/FaceGeom.cpp", "pkg/dem/space/FaceJoints.cpp", "pkg/contact/space/nearest.hpp", "pkg/dem/space/NscdSpacePhys.cpp"
 HARD = "py/nonsmooth/world/hardening"
-SPACE, HARDENING = "test_space.py", "test_hardening.py"
+SPACE, OPEN, HARDENING = "test_space.py", "test_space_open_gaps.py", "test_hardening.py"
 
 MUTANTS = (
     mutant("space-gap", SEAM, "!phys.bonded && link.gap > 0 ? link.gap / h : 0", "0", "a sphere stops above its floor", SPACE + "::test_two_balls_meet_with_restitution"),
@@ -12,6 +12,12 @@ MUTANTS = (
     mutant("space-aside", SEAM, "acrossNormal(c.n, a)", "(space::Vector {})", "a floor that turns does not lift what lies far from its axis",
            SPACE + "::test_a_floor_that_turns_about_an_axis_far_away_moves_as_its_points_do"),
     mutant("space-order", SEAM, "id1 > id2", "false", "a contact runs as YADE happens to keep it", SPACE + "::test_a_contact_runs_from_the_lower_id_whatever_order_yade_keeps"),
+    mutant("space-left-out", "pkg/dem/space/SpaceSeamRecall.cpp", "relaxation.openGap * phys.length", "HUGE_VAL", "contacts that stay open are solved for", OPEN + "::test_a_contact_that_stays_open_is_left_out_and_bears_nothing"),
+    mutant("space-left-bears", "pkg/dem/space/SpaceSeamRecall.cpp", "phys.normalForce = phys.shearForce = phys.rollingTorque = Vector3r::Zero();", "", "a contact that was left out bears what it bore before", OPEN + "::test_a_contact_that_stays_open_is_left_out_and_bears_nothing"),
+    mutant("space-recall", "pkg/dem/space/SpaceSeamRecall.cpp", "if (!taken.empty()) takeIn(taken);", "return 0;", "who is hit in a step goes into the next", OPEN + "::test_who_is_hit_in_a_step_stops_at_the_next"),
+    mutant("space-recall-order", "pkg/dem/space/SpaceSeamRecall.cpp", "std::sort(added.begin(), added.end(), [&](const Link& a, const Link& b) { return key(a) < key(b); });", "", "contacts that are taken in stand as YADE's list has them", OPEN + "::test_who_is_hit_in_a_step_stops_at_the_next"),
+    mutant("space-follow", "pkg/dem/engines/NscdInteractionLoopFunctors.cpp", "(first.radius - 0.5 * geom.penetrationDepth) * geom.normal", "first.radius * geom.normal", "contact points do not lie in the middle of a gap", OPEN + "::test_a_contact_has_the_geometry_that_its_functor_would_give"),
+    mutant("space-reach", "py/nonsmooth/world/space.py", "REACH = 0.12", "REACH = 0.05", "fast spheres overlap before they are seen", OPEN + "::test_what_is_fast_does_not_overlap"),
     mutant("space-shear-work", "pkg/dem/space/SpaceSeamScatter.cpp", "0.5 * dot(rows.t, u0.t + u1.t)", "dot(rows.t, u1.t)", "sliding loses what it loses at the end of the step", SPACE + "::test_energy_is_accounted_for"),
     mutant("space-moment-work", "pkg/dem/space/SpaceSeamScatter.cpp", "0.5 * dot(p.m, u0.w + u1.w)", "0", "rolling and twisting lose nothing", SPACE + "::test_energy_is_accounted_for"),
     mutant("space-reaction", "pkg/dem/space/SpaceSeamScatter.cpp", "rj.w + (c.leverJ * turn + cross(c.asideJ, p.f) + p.m)", "rj.w + (c.leverJ * turn + cross(c.asideJ, p.f))", "O.forces has no torque of rolling resistance",

@@ -2,7 +2,7 @@
 from mutant import mutant
 
 LAW, PROBLEM, GENERAL = "pkg/contact/space/law.hpp", "pkg/contact/space/problem.hpp", "pkg/contact/space/law.cpp"
-KERNELS, FILL, RESIDUAL = "pkg/contact/space/kernels.inc", "pkg/contact/space/fill.cpp", "pkg/contact/space/residual.cpp"
+KERNELS, FILL, RESIDUAL = "pkg/contact/space/kernels.inc", "pkg/contact/space/passes.inc", "pkg/contact/space/residual.cpp"
 SURVEY, CORRECTION, CUT = "pkg/contact/space/survey.cpp", "pkg/contact/space/position_correction.cpp", "pkg/contact/core/strip_cut.cpp"
 ONE, MADE, PATHS = "gtest:*SpaceOneContact*", "gtest:SpaceManufactured.*", "gtest:SpacePaths.*"
 
@@ -42,11 +42,15 @@ MUTANTS = (
     mutant("balls-kernel-speeds", KERNELS, "missed + own + least", "missed + least", "speeds are held against themselves", PATHS),
     mutant("balls-kernel-normals", KERNELS, "b.v             = b.v + b.mass * df;", "b.v = b.v - b.mass * df;", "normal impulses of displacements pull the second body",
            "gtest:*SpacePositions*"),
-    mutant("balls-fill-bias", FILL, "c.biasN + u.n", "u.n", "blocks do not know the contact's own bias", MADE),
-    mutant("balls-fill-given", FILL, "c.biasW + u.w", "c.biasW - u.w", "blocks take how free bodies spin for its contrary", MADE),
-    mutant("balls-take", FILL, "square >= beside * thresholdF * thresholdF", "false", "contacts that slide are beside their threshold by a rounding of floats",
+    mutant("balls-fill-bias", FILL, "contact(&Contact::biasN) + un", "un", "blocks do not know the contact's own bias", MADE),
+    mutant("balls-fill-given", FILL, "across(&Contact::biasW) + (spinJ - spinI)", "across(&Contact::biasW) - (spinJ - spinI)", "blocks take how free bodies spin for its contrary", MADE),
+    mutant("balls-take", FILL, "(square > zero) & (square >= beside * thresholdF * thresholdF)", "square < zero", "contacts that slide are beside their threshold by a rounding of floats",
            "gtest:SpacePrecision.*"),
-    mutant("balls-take-open", FILL, "nF <= rounding - adhesionF", "false", "bonds that open are beside their threshold by a rounding of floats", "gtest:SpacePrecision.*"),
+    mutant("balls-take-open", FILL, "nF <= rounding - adhesionF", "zero < zero", "bonds that open are beside their threshold by a rounding of floats", "gtest:SpacePrecision.*"),
+    mutant("balls-fill-aside", FILL, "cross(spinJ, across(&Contact::asideJ)) - cross(spinI, across(&Contact::asideI))", "cross(spinJ, across(&Contact::asideJ))",
+           "blocks do not know that a floor turns", MADE, PATHS),
+    mutant("balls-fill-turn", FILL, "cross(leverJ * spinJ - leverI * spinI, n)", "cross(leverJ * spinJ + leverI * spinI, n)", "blocks take the first body's spin for its contrary", MADE, PATHS),
+    mutant("balls-fill-disc", FILL, "shrinkInto<V>(dot(r, r), most(rollingArm)) * r", "r", "a warm start has rolling impulses beyond their threshold", MADE, PATHS, "gtest:SpaceWarm*"),
     # ---- what is looked at before
     mutant("balls-ball", SURVEY, "(!(j & Survey::turns) || isZero(c.asideJ))", "true", "arms across n go into blocks, which do not know them", MADE),
     mutant("balls-axis", CUT, "axis > 0 && places.axes == 2", "axis > 0", "strips across y and z do not follow the bodies' numbers", "gtest:SpaceSymmetry.AMirrored*"),

@@ -26,7 +26,7 @@ from yade.wrapper import (
 from .. import space
 from .error import HardenError
 
-__all__ = ["REACH", "hard_engines", "loop_of", "newton_of"]
+__all__ = ["hard_engines", "loop_of", "newton_of"]
 
 # laws of springs, friction and damping between spheres; a law that is no contact of grains has no rigid counterpart
 _LAWS = (
@@ -44,8 +44,6 @@ _SHAPES = {
     Segment: (Bo1_Segment_Aabb, Ig2_Segment_Sphere_ScGeom),
     Arc: (Bo1_Arc_Aabb, Ig2_Arc_Sphere_ScGeom),
 }
-#: Gap up to which contacts are known beforehand [ℓ].
-REACH = 0.05
 
 
 def loop_of(engines):
@@ -105,9 +103,9 @@ def hard_engines(engines, shapes, in_plane, options):
             rows.append((name, "dropped: the step of rigid contacts does not depend on stiffness"))
         elif isinstance(engine, Collider):
             made.append(_collider(engine, touched, in_plane))
-            rows.append((name, f"{type(made[-1]).__name__}, which sees open gaps of {REACH:g} ℓ"))
+            rows.append((name, f"{type(made[-1]).__name__}, which sees open gaps of {space.REACH:g} ℓ"))
         elif isinstance(engine, InteractionLoop):
-            made.append(space.loop(REACH, shapes=touched, label=engine.label))
+            made.append(space.loop(space.REACH, shapes=touched, label=engine.label))
             if not _meet(engine):  # a script may leave spheres through each other
                 made[-1].geomDispatcher.functors = made[-1].geomDispatcher.functors[1:]
                 rows.append(("no contacts of spheres with spheres", "stays so"))
@@ -118,7 +116,8 @@ def hard_engines(engines, shapes, in_plane, options):
             rows.append((name, "PyRunner, which erases the same bodies"))
         elif engine is newton:
             damping = engine.damping
-            made += [ContactDynamicsEngine(**{"label": "contactDynamics", **options}), _integrator(engine, in_plane)]
+            usual = {"label": "contactDynamics"} | ({} if in_plane else {"openGap": space.OPEN_GAP})
+            made += [ContactDynamicsEngine(**{**usual, **options}), _integrator(engine, in_plane)]
             rows.append(
                 (
                     f"{name} (damping = {damping:g})",
@@ -137,9 +136,9 @@ def _meet(loop):
 
 def _collider(old, shapes, in_plane):
     if in_plane:  # where no wall asks for twice the reach
-        return PlanarGridCollider(space.bounds(0.5 * REACH, shapes), verletDist=-0.2, label=old.label)
+        return PlanarGridCollider(space.bounds(0.5 * space.REACH, shapes), verletDist=-0.2, label=old.label)
     return InsertionSortCollider(
-        space.bounds(REACH, shapes), label=old.label, avoidSelfInteractionMask=old.avoidSelfInteractionMask
+        space.bounds(space.REACH, shapes), label=old.label, avoidSelfInteractionMask=old.avoidSelfInteractionMask
     )
 
 

@@ -10,10 +10,11 @@ from tabulate import tabulate
 
 from yade.wrapper import ContactDynamicsEngine, NewtonIntegrator, NscdMat, PeriodicEngine, PyRunner, Sphere
 
+from .. import space
 from . import belts
 from .energies import hear_energies
 from .error import HardenError
-from .lists import REACH, hard_engines, loop_of, newton_of
+from .lists import hard_engines, loop_of, newton_of
 from .room import refuse_far_bonds, refuse_wedged
 from .steps import hard_step
 from .strengths import hard_material, pairs_of, restitution_of, restitution_of_damping, set_pairs
@@ -89,7 +90,7 @@ def harden(O, step=None, restitution=None, **options):
     in_plane = bool(moving) and all(set(_PLANE) <= set(b.state.blockedDOFs) for b in moving)
     newton = newton_of(O.engines, bodies)
     refuse_wedged(bodies, moving)
-    refuse_far_bonds(O.interactions, bodies, REACH)
+    refuse_far_bonds(O.interactions, bodies, space.REACH)
     left, restitution = restitution == "damping", None if restitution == "damping" else restitution
     of_functors = restitution_of(loop.physDispatcher.functors) if restitution is None else restitution
     if left and of_functors is None:

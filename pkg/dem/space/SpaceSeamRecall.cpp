@@ -1,0 +1,80 @@
+// Contacts in space that need not be solved for: which are left out, and which are taken in again (seam/Recall.hpp).
+#include "SpaceSeam.hpp"
+#include "../seam/Recall.hpp"
+#include <pkg/dem/ScGeom.hpp>
+
+namespace yade::nscd {
+
+namespace space = nonsmooth::contact::space;
+
+/// A contact is left out where it is open and will not close in the step.
+bool SpaceSeam::mustBeSolved(const Link& link) const
+{
+	const NscdPhys& phys   = *link.phys;
+	const Real      widest = relaxation.openGap * phys.length;
+	if (phys.bonded || phys.breaks || link.gap <= widest) return true;
+	space::Contact c;
+	setFrame(link, c);
+	const auto& v     = problem.freeVelocity;
+	const Real  speed = relativeVelocity(c, v[c.i], v[c.j]).n;
+	return !staysOpen(link.gap, speed, relaxation.step, widest);
+}
+
+/// What is left out bears nothing.
+void SpaceSeam::leaveOut(const Link& link, std::vector<Left>& result) const
+{
+	result.emplace_back();
+	result.back().link = link;
+	setFrame(link, result.back().contact);
+	auto& phys   = static_cast<NscdSpacePhys&>(*link.phys);
+	phys.touched = false;
+	if (phys.normal == 0 && phys.correction == 0) return;
+	phys.normal = phys.tangential = phys.torque = phys.twistingTorque = phys.correction = 0;
+	phys.normalForce = phys.shearForce = phys.rollingTorque = Vector3r::Zero();
+	phys.noteForces();
+}
+
+size_t SpaceSeam::recall()
+{
+	const auto gapAfter = [this](size_t k) {
+		const auto& c = left[k].contact;
+		const auto& v = problem.velocities;
+		return left[k].link.gap + relaxation.step * relativeVelocity(c, v[c.i], v[c.j]).n;
+	};
+	const auto taken = toBeTakenIn(left.size(), recalls, gapAfter, [this](size_t k) {
+		return left[k].contact.length;
+	});
+	if (!taken.empty()) takeIn(taken);
+	return taken.size();
+}
+
+/// Takes contacts that were left out into the solve, into the order of ids.
+void SpaceSeam::takeIn(const std::vector<size_t>& taken)
+{
+	const auto        key = [](const Link& l) { return std::minmax(l.i, l.j); };
+	std::vector<Link> added;
+	for (const size_t k : taken)
+		added.push_back(left[k].link);
+	std::sort(added.begin(), added.end(), [&](const Link& a, const Link& b) { return key(a) < key(b); });
+	const size_t old = links.size(), all = old + added.size();
+	links.resize(all);
+	problem.contacts.resize(all);
+	problem.impulses.resize(all);
+	warmStart.resize(all);
+	mergeFromBack(
+	        old, added.size(), [&](size_t o, size_t a) { return key(links[o]) > key(added[a]); },
+	        [&](size_t o, size_t to) {
+		        links[to]            = links[o];
+		        problem.contacts[to] = problem.contacts[o];
+		        problem.impulses[to] = problem.impulses[o];
+		        warmStart[to]        = warmStart[o];
+	        },
+	        [&](size_t a, size_t to) {
+		        links[to] = added[a];
+		        gatherContact(to);
+		        warmStart[to] = problem.impulses[to];
+	        });
+	eraseAt(left, taken);
+}
+
+} // namespace yade::nscd
