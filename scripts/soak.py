@@ -1,8 +1,8 @@
 #!/usr/bin/env python3
-"""A soak: disks in a turning drum for very many steps. Overlap, energy and memory must not grow; the exit status is 1
-where one does.
+"""A soak: disks or spheres in a turning drum for very many steps. Overlap, energy and memory must not grow; the exit
+status is 1 where one does.
 
-  scripts/soak.py [--steps N] [--disks N] [--seed S] [--way advance|step] [--out FILE] [--threads T]
+  scripts/soak.py [--steps N] [--disks N | --spheres N] [--seed S] [--way advance|step] [--out FILE] [--threads T]
 """
 import os, sys
 
@@ -30,6 +30,7 @@ def read_arguments():
         help="time steps of 5 ms (default: %(default)s, half an hour)",
     )
     arguments.add_disks(parser, 500, "disks in the drum")
+    parser.add_argument("--spheres", type=int, metavar="N", help="spheres in a drum in space, instead of disks")
     parser.add_argument("--seed", type=int, default=1, metavar="S", help="of their sizes (default: %(default)s)")
     parser.add_argument(
         "--way",
@@ -47,8 +48,10 @@ def read_arguments():
         parser.error(
             f"--steps {args.steps}: give {10 * soak.ROWS} or more, so that each of the {soak.ROWS} rows has some"
         )
-    if args.disks < 60:
-        parser.error(f"--disks {args.disks}: give 60 or more, so that all find a place to fall from")
+    args.kind = "disks" if args.spheres is None else "spheres"
+    args.grains = getattr(args, args.kind)
+    if args.grains < 60:
+        parser.error(f"--{args.kind} {args.grains}: give 60 or more, so that all find a place to fall from")
     return args
 
 
@@ -57,12 +60,12 @@ def main():
     out = Path(args.out)
     output_folder.claim(out.parent, "soak.py")
     with arguments.bar() as progress:
-        found = soak.run(args.disks, args.steps, args.seed, progress, args.way)
+        found = soak.run(args.grains, args.steps, args.seed, progress, args.way, args.kind)
     write_json(out, {"machine": machine.describe(), **found})
     rows = found["rows"]
     first, last = rows[len(rows) // 10], rows[-1]
     print(
-        f"{args.steps} steps of {args.disks} disks, {last['turns']:.1f} turns, {found['wall_s']:.0f} s of wall time. From step {first['step']} on: overlaps of at most "
+        f"{args.steps} steps of {args.grains} {args.kind}, {last['turns']:.1f} turns, {found['wall_s']:.0f} s of wall time. From step {first['step']} on: overlaps of at most "
         f"{max(row['overlap_worst_rel'] for row in rows[len(rows) // 10:]):.1e} of a diameter, {sum(row['unconverged'] for row in rows)} steps above the tolerance, "
         f"{last['energy_error_rel']:.1e} of what was dissipated missing in the energy balance, memory {first['memory_MB']:.1f} MB, then {last['memory_MB']:.1f} MB"
     )

@@ -373,6 +373,7 @@ WHERE = {
     },
     "soak.py": {
         "--disks": (("--disks", 61), lambda a: a.words[0], 61),
+        "--spheres": (("--spheres", 62), lambda a: (a.words[0], a.words[5]), (62, "spheres")),
         "--steps": (("--steps", 1234), lambda a: a.words[1], 1234),
         "--seed": (("--seed", 9), lambda a: a.words[2], 9),
         "--way": (("--way", "step"), lambda a: a.words[4], "step"),
