@@ -283,9 +283,12 @@ void SpaceSeam::setFrame(const Link& link, space::Contact& c) const
 	c.i              = link.i;
 	c.j              = link.j;
 	c.n              = Real(link.swapped ? -1 : 1) * ours(geom.normal);
-	const auto arm   = [&](int id, Real side, Real& lever, space::Vector& aside) {
+	// between spheres the point in the middle of the gap keeps the angular momentum; where one hits a wall within the
+	// step its arm is the radius then
+	const bool both = bodies[c.i].radius > 0 && bodies[c.j].radius > 0;
+	const auto arm  = [&](int id, Real side, Real& lever, space::Vector& aside) {
                 if (bodies[id].radius > 0) { // through a sphere's centre
-                        lever = side * (bodies[id].radius + 0.5 * link.gap);
+                        lever = side * (bodies[id].radius + (both ? 0.5 * link.gap : 0));
                         return;
                 }
                 const space::Vector a = ours(geom.contactPoint) - problem.positions[id];
