@@ -149,7 +149,7 @@ TEST(Blocks, AreFilledWithTheNumbersOfTheLaw)
 			if (b.contactOf[k] == ContactBlocks::none) continue;
 			const Contact& c     = p.contacts[b.contactOf[k]];
 			const Impulse &start = p.impulses[b.contactOf[k]], wanted = project(c, start);
-			const Impulse  inverse = inverseDelassus(c, p.inverseMass[c.i], p.inverseMass[c.j]);
+			const Diagonal inverse = inverseDelassus(c, p.inverseMass[c.i], p.inverseMass[c.j]);
 			const auto&    block   = b.inDouble.blocks[k / lanes];
 			const auto     l       = k % lanes;
 			const Impulse  now { block.n.v[l], block.t.v[l], block.r.v[l] },
@@ -157,7 +157,7 @@ TEST(Blocks, AreFilledWithTheNumbersOfTheLaw)
 			ASSERT_TRUE(sameBits(std::vector<Impulse> { now, before }, { wanted, wanted }))
 			        << kernels->name << ", contact " << b.contactOf[k];
 			ASSERT_TRUE(sameBits(
-			        std::vector<Impulse> {
+			        std::vector<Diagonal> {
 			                { block.inverseN.v[l], block.inverseT.v[l], block.inverseR.v[l] } },
 			        { inverse }))
 			        << kernels->name;

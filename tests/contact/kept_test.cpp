@@ -210,7 +210,7 @@ TEST(Kept, NoCutWhereBodiesGoToOtherBinsThoughWidthAndPairsStay)
 			const StripCut before = cut;
 			go(far);
 			expectNext(p, s, workspace, false);
-			EXPECT_TRUE(workspace.laidOut.survey.pairsKept);
+			EXPECT_TRUE(workspace.laidOut.classification.pairsKept);
 			EXPECT_EQ(cut.scratch.bins, before.scratch.bins);
 			EXPECT_EQ(cut.scratch.width, before.scratch.width);
 			EXPECT_NE(cut.scratch.binOfBody, before.scratch.binOfBody);

@@ -71,16 +71,16 @@ TEST(Law, InverseDelassusOfBodiesThatAreHeavierOneWay)
 	c.leverTj = -4;
 	c.length  = 0.5;
 	const InverseMass light { 0.2, 0.5, 0.1 }, heavy { 0.3, 0.4, 0.7 }, held {};
-	const Impulse     w = inverseDelassus(c, light, heavy);
+	const Diagonal    w = inverseDelassus(c, light, heavy);
 	EXPECT_NEAR(
 	        1 / w.n, 0.36 * 0.5 + 0.64 * 0.9 + 4 * 0.1 + 9 * 0.7, 1e-14); // n_x², n_y², levers squared; rounding
 	EXPECT_NEAR(1 / w.t, 0.64 * 0.5 + 0.36 * 0.9 + 1 * 0.1 + 16 * 0.7, 1e-14);
 	EXPECT_NEAR(1 / w.r, 0.1 + 0.7, 1e-15);
-	const Impulse none = inverseDelassus(c, held, held);
+	const Diagonal none = inverseDelassus(c, held, held);
 	EXPECT_EQ(none.n, 0);
 	EXPECT_EQ(none.t, 0);
 	EXPECT_EQ(none.r, 0);
-	const Impulse level = inverseDelassus(c, { 0.2, 0.2, 0 }, held); // a row that no impulse moves
+	const Diagonal level = inverseDelassus(c, { 0.2, 0.2, 0 }, held); // a row that no impulse moves
 	EXPECT_NEAR(level.n, 5, 1e-14);
 	EXPECT_NEAR(level.r, 5 * 0.25, 1e-14);
 }
@@ -150,11 +150,11 @@ TEST(Law, InverseDelassusOfDisks)
 	c.leverTi = 0.5;
 	c.leverTj = -0.5;
 	const InverseMass mi { 0.5, 0.5, 4 }, mj { 0.25, 0.25, 2 };
-	const Impulse     w = inverseDelassus(c, mi, mj);
+	const Diagonal    w = inverseDelassus(c, mi, mj);
 	EXPECT_NEAR(w.n, 1 / 0.75, 1e-15); // rounding of two products
 	EXPECT_NEAR(w.t, 1 / (0.75 + 6 * 0.25), 1e-15);
 	EXPECT_NEAR(w.r, 1 / 6.0, 1e-15);
-	const Impulse none = inverseDelassus(c, {}, {});
+	const Diagonal none = inverseDelassus(c, {}, {});
 	EXPECT_EQ(none.n, 0); // two walls: nothing can move, and nothing is divided by zero
 	EXPECT_EQ(none.t, 0);
 	EXPECT_EQ(none.r, 0);

@@ -23,7 +23,7 @@ inline double cross(const Point& a, const Point& b) { return a.x * b.y - a.y * b
 inline Point  quarterTurn(const Point& a) { return { -a.y, a.x }; }
 
 /// What `link` sees of its bodies' motion: n and t of the velocity of j's point from i's point, and the difference of their turning.
-inline Impulse seen(const Link& link, const std::vector<Twist>& v)
+inline RelativeVelocity seen(const Link& link, const std::vector<Twist>& v)
 {
 	const auto at = [&v](int body, const Point& arm) {
 		return Point { v[body].x - v[body].w * arm.y, v[body].y + v[body].w * arm.x };
@@ -74,11 +74,12 @@ struct Manufactured {
 			push(links[k], p[k], problem.inverseMass, 1, v);
 		std::vector<Impulse> found;
 		for (std::size_t k = 0; k < links.size(); ++k) {
-			const Contact& c = problem.contacts[k];
-			const Impulse  u = seen(links[k], v), w = diagonal(k);
-			const double   pressed = std::max(0.0, p[k].n + c.adhesion);
-			const auto     row     = [](double x, double velocity, double w, double least, double most) {
-                                return x - std::clamp(x - velocity / w, least, most);
+			const Contact&         c       = problem.contacts[k];
+			const RelativeVelocity u       = seen(links[k], v);
+			const Diagonal         w       = diagonal(k);
+			const double           pressed = std::max(0.0, p[k].n + c.adhesion);
+			const auto row = [](double x, double velocity, double w, double least, double most) {
+				return x - std::clamp(x - velocity / w, least, most);
 			};
 			// with play: compression where z is above 0, tension where it is below −p/W, nothing between
 			const double n = u.n + c.biasN, z = p[k].n - n / w.n, length = -c.play / w.n;
@@ -94,7 +95,7 @@ struct Manufactured {
 	}
 
 	/// W of one contact: what a unit impulse in each row changes of the velocity in that row. A row that none moves has that of the normal, in its unit.
-	Impulse diagonal(std::size_t k) const
+	Diagonal diagonal(std::size_t k) const
 	{
 		const Link                     alone { 0, 1, links[k].n, links[k].armI, links[k].armJ };
 		const std::vector<InverseMass> inverse { problem.inverseMass[links[k].i],
@@ -218,21 +219,22 @@ private:
 		if (recipe.plays && c.adhesion > 0 && uniform() < 0.5) c.play = uniform(0.1, 0.5);
 
 		// velocities in the graphs, bias included; impulses complementary to them
-		Impulse      u, p;
-		const double chance = recipe.bonded ? uniform(0, 0.5) : uniform();
-		int          state  = chance < 0.4 ? 0 : chance < 0.55 && c.adhesion > 0 ? 1 : chance < 0.7 ? 2 : 3;
+		RelativeVelocity u;
+		Impulse          p;
+		const double     chance = recipe.bonded ? uniform(0, 0.5) : uniform();
+		int              state  = chance < 0.4 ? 0 : chance < 0.55 && c.adhesion > 0 ? 1 : chance < 0.7 ? 2 : 3;
 		if (c.play > 0 && uniform() < 0.3) state = 4;
 		++made.counts[state];
-		p.n                     = state == 4     ? 0
-		                            : state == 0 ? uniform(0.2, 2)
-		                            : state == 1 ? -uniform(0.1, 0.9) * c.adhesion
-		                                         : -c.adhesion;
-		u.n                     = state == 4     ? uniform(0.1, 0.9) * c.play
-		                            : state == 3 ? uniform(0.1, 1) + c.play
-		                            : state == 0 ? 0
-		                                         : c.play;
-		const Impulse now       = seen(link, made.velocities);
-		const bool    turnsBias = !free && odd();
+		p.n                              = state == 4     ? 0
+		                                     : state == 0 ? uniform(0.2, 2)
+		                                     : state == 1 ? -uniform(0.1, 0.9) * c.adhesion
+		                                                  : -c.adhesion;
+		u.n                              = state == 4     ? uniform(0.1, 0.9) * c.play
+		                                     : state == 3 ? uniform(0.1, 1) + c.play
+		                                     : state == 0 ? 0
+		                                                  : c.play;
+		const RelativeVelocity now       = seen(link, made.velocities);
+		const bool             turnsBias = !free && odd();
 		if (turnsBias || (free && odd())) c.biasT = uniform(-0.2, 0.2), c.biasR = uniform(-0.2, 0.2);
 		const auto row = [&](double threshold, double found, double& velocity, double& impulse) {
 			const bool   chosen = free || turnsBias;
@@ -260,7 +262,7 @@ private:
 	}
 
 	/// Gives the child the velocity with which the link sees u.
-	void moveChild(const Link& link, const Join& join, const Impulse& u)
+	void moveChild(const Link& link, const Join& join, const RelativeVelocity& u)
 	{
 		const double s    = join.child == link.j ? 1 : -1;
 		const Point  armP = s > 0 ? link.armI : link.armJ, armC = s > 0 ? link.armJ : link.armI,

@@ -183,8 +183,9 @@ TEST(Manufactured, OneImpulseTooMuchIsMissedBySoMuchWhereAllHolds)
 			push(m.links[k], push1, p.inverseMass, 1, v);
 			double square = 0;
 			for (std::size_t l = 0; l < m.links.size(); ++l) {
-				const Impulse u = seen(m.links[l], v), w = m.diagonal(l);
-				const double  r = u.r / w.r / p.contacts[l].length;
+				const RelativeVelocity u = seen(m.links[l], v);
+				const Diagonal         w = m.diagonal(l);
+				const double           r = u.r / w.r / p.contacts[l].length;
 				square += u.n * u.n / (w.n * w.n) + u.t * u.t / (w.t * w.t) + r * r;
 			}
 			EXPECT_NEAR(naturalMapDefects(p)[k].*row, delta, rounding);

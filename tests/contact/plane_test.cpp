@@ -150,8 +150,8 @@ TEST(PlaneDisks, LeversAreThoseFromTheCentresToTheContact)
 	const auto  at = [&](const Twist& v, const Point& x) {
                 return Point { v.x - v.w * (d.point.y - x.y), v.y + v.w * (d.point.x - x.x) };
 	};
-	const Point   ui = at(vi, x1), uj = at(vj, x2);
-	const Impulse u = relativeVelocity(c, vi, vj);
+	const Point            ui = at(vi, x1), uj = at(vj, x2);
+	const RelativeVelocity u = relativeVelocity(c, vi, vj);
 	EXPECT_NEAR(u.n, d.nx * (uj.x - ui.x) + d.ny * (uj.y - ui.y), 1e-14); // rounding of numbers of about 10
 	EXPECT_NEAR(u.t, -d.ny * (uj.x - ui.x) + d.nx * (uj.y - ui.y), 1e-14);
 }
@@ -279,8 +279,8 @@ TEST(PlaneBond, KeepsTheLongestGapItHasHad)
 
 TEST(PlaneBond, YieldsAtItsThresholdsOnly)
 {
-	const Contact c = bonded(10, 0.5, 0.25, 2); // h F_a, μ_s, μ_r ℓ, ℓ
-	const Impulse u { 0.5, -0.25, 0.125 };
+	const Contact          c = bonded(10, 0.5, 0.25, 2); // h F_a, μ_s, μ_r ℓ, ℓ
+	const RelativeVelocity u { 0.5, -0.25, 0.125 };
 	// at P_n = −6 the thresholds are 0.5 · 4 and 0.25 · 4
 	const YieldPath none = yieldOfStep(c, { -6, 1.99, -0.99 }, u, 0.1);
 	EXPECT_EQ(none.tension, 0);

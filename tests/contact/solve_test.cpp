@@ -37,7 +37,8 @@ Problem single(const Impulse& q, double angle = 0, double mass = 1)
 	return p;
 }
 
-void expectNear(const Impulse& a, const Impulse& b, double tolerance)
+/// Of impulses, or of relative velocities.
+template <class Rows> void expectNear(const Rows& a, const std::common_type_t<Rows>& b, double tolerance)
 {
 	EXPECT_NEAR(a.n, b.n, tolerance);
 	EXPECT_NEAR(a.t, b.t, tolerance);

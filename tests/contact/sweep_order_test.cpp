@@ -49,17 +49,17 @@ Problem withStray(Problem p, double x, double y)
 	return p;
 }
 
-Survey surveyed(const Problem& p, int threads = 1)
+Classification classified(const Problem& p, int threads = 1)
 {
-	Survey result;
-	survey(p, threads, true, result);
+	Classification result;
+	classify(p, threads, true, result);
 	return result;
 }
 
 SweepOrder arranged(const Problem& p, int threads = 1)
 {
 	SweepOrder result;
-	EXPECT_FALSE(arrange(coordinatesOf(p), surveyed(p, threads), threads, result)); // nothing stood there
+	EXPECT_FALSE(arrange(coordinatesOf(p), classified(p, threads), threads, result)); // nothing stood there
 	return result;
 }
 
@@ -72,7 +72,7 @@ std::vector<std::uint8_t> coloursOf(const std::vector<Contact>& contacts, const 
 	p.inverseMass = inverse;
 	p.freeVelocity.resize(inverse.size());
 	p.impulses.resize(contacts.size());
-	colour(surveyed(p).pairs, inverse.size(), colours, used);
+	colour(classified(p).pairs, inverse.size(), colours, used);
 	return colours;
 }
 

@@ -224,7 +224,7 @@ SAME = {
     ): "where no body can move both are 0, and 0 is no more than 0",
     (
         "pkg/dem/checks/ContactCheck.cpp",
-        "reading.nx + reading.ny + reading.nz",
-        "reading.nx - reading.ny + reading.nz",
+        "state.nx + state.ny + state.nz",
+        "state.nx - state.ny + state.nz",
     ): "parts of a normal of length 1, or not finite: so is their sum, with either sign",
 }

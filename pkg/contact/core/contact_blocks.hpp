@@ -6,7 +6,7 @@
 #pragma once
 
 #include <contact/core/kernel_table.hpp>
-#include <contact/core/survey.hpp>
+#include <contact/core/classification.hpp>
 #include <contact/core/sweep_order.hpp>
 #include <vector>
 
@@ -32,7 +32,7 @@ template <class Dimension> struct ContactBlocksIn {
 	std::vector<std::int32_t>   others; // contacts outside blocks
 	std::vector<std::size_t>    blockBegin, otherBegin; // of every part of the order; one more than there are parts
 	std::vector<std::int32_t>   placeOf; // of the problem's bodies in order.bodies
-	Survey                      survey;
+	Classification              classification;
 	SweepOrder                  order;
 	std::size_t                 partCount() const { return blockBegin.empty() ? 0 : blockBegin.size() - 1; }
 
@@ -53,7 +53,7 @@ template <class Dimension> struct ContactBlocksIn {
 	bool              kept     = false; // whether it kept what stood there
 };
 
-/// Looks at the problem (core/survey.hpp, whose refusals it throws) and lays out which contacts lie where in `result`,
+/// Looks at the problem (core/classification.hpp, whose refusals it throws) and lays out which contacts lie where in `result`,
 /// whose memory is used again. Numbers are left to fillIn(). Blocks name bodies by their places; an empty lane names
 /// the place problem.bodyCount(), which the caller provides and which cannot move. Without `blocks` all contacts are
 /// among the others, in the order of the sweep.

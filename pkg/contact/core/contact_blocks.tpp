@@ -49,11 +49,11 @@ namespace layout {
 		const auto  close = [&](std::size_t at) { std::copy(open + at + 1, open + count--, open + at); };
 		for (std::size_t k = all.order.partBegin[part]; k < all.order.partBegin[part + 1]; ++k) {
 			const std::int32_t index = all.order.order[k];
-			if (!all.survey.simple[index]) {
+			if (!all.classification.simple[index]) {
 				result.others.push_back(index);
 				continue;
 			}
-			const MovablePair& pair = all.survey.pairs[index];
+			const MovablePair& pair = all.classification.pairs[index];
 			std::size_t        at   = 0;
 			while (at < count && open[at].has(pair))
 				++at;
@@ -102,7 +102,7 @@ namespace layout {
 		for (std::size_t l = 0; l < lanes; ++l) {
 			block.i[l] = block.j[l] = nobody;
 			if (contactOf[l] == all.none) continue;
-			const MovablePair& pair = all.survey.pairs[contactOf[l]];
+			const MovablePair& pair = all.classification.pairs[contactOf[l]];
 			block.i[l]              = all.placeOf[MovablePair::bodyOf(pair.i)];
 			block.j[l]              = all.placeOf[MovablePair::bodyOf(pair.j)];
 			block.movesI |= (MovablePair::moves(pair.i) ? 1u : 0u) << l;
@@ -116,9 +116,9 @@ namespace layout {
 template <class Dimension>
 void layOut(const typename Dimension::Problem& problem, int threads, ContactBlocksIn<Dimension>& result, bool blocks)
 {
-	const bool whole = std::exchange(result.complete, false);
-	Survey&    seen  = result.survey;
-	survey(problem, threads, blocks, seen);
+	const bool      whole = std::exchange(result.complete, false);
+	Classification& seen  = result.classification;
+	classify(problem, threads, blocks, seen);
 	if (!whole) seen.pairsKept = seen.simpleKept = false;
 	const bool sameOrder = arrange(coordinatesOf(problem), seen, threads, result.order);
 	result.kept = result.complete = sameOrder && seen.simpleKept;

@@ -69,12 +69,12 @@ template <class Dimension> struct BlockKernelsIn {
 	void (*applyNormals)(const Exact* blocks, std::size_t count, Motion* bodies);
 	/// Blocks of the same contacts with all numbers rounded to floats; what is too large for those becomes the
 	/// largest whose thresholds are still numbers.
-	void (*round)(
+	void (*narrow)(
 	        const Exact* from, const Numbers<double>* inverseLength, std::size_t count, Rounded* to,
 	        Numbers<float>* inverseLengthTo);
 	/// Takes impulses P_k back, projected on the thresholds in doubles; those on a threshold of floats are on that
 	/// of doubles. P_{k−1} is P_k.
-	void (*take)(const Rounded* from, std::size_t count, Exact* to);
+	void (*widen)(const Rounded* from, std::size_t count, Exact* to);
 
 	template <class Number> const KernelsIn<Dimension, Number>& with() const
 	{

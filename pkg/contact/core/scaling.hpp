@@ -4,7 +4,7 @@
 // times a m and velocities times a. Powers of two change no digit.
 #pragma once
 
-#include <contact/core/survey.hpp>
+#include <contact/core/classification.hpp>
 #include <optional>
 
 namespace nonsmooth::contact {
@@ -18,7 +18,7 @@ inline Scaling inverse(const Scaling& s) { return { -s.speed, -s.mass }; }
 
 /// Units in which the largest free velocity and mass are near one, if their squares are lost in the present ones; none
 /// where nothing moves.
-std::optional<Scaling> scalingOfLostSquares(const Survey& survey);
+std::optional<Scaling> scalingOfLostSquares(const Classification& classification);
 
 /// What a strength becomes that is out of all proportion to the impulses; times a friction it is still a number.
 constexpr double unreachedStrength = 1e290;

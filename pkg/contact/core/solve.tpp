@@ -33,7 +33,7 @@ namespace solving {
 
 	private:
 		void begin();
-		void roundStrip(std::size_t strip);
+		void narrowStrip(std::size_t strip);
 		void round();
 		void finish(bool take);
 		bool sweepAndPatch();
@@ -60,7 +60,8 @@ namespace solving {
 	        , exact(problem_, settings_, workspace)
 	{
 		exact.fillRows();
-		if (laidOut.survey.jumps && laidOut.survey.uneven && settings.stopping == StoppingTest::NaturalMap)
+		if (laidOut.classification.jumps && laidOut.classification.uneven
+		    && settings.stopping == StoppingTest::NaturalMap)
 			patches.emplace(exact);
 		if (patches && !patches->any()) patches.reset();
 		// floats have no digits for a light body between heavy ones
@@ -90,7 +91,7 @@ namespace solving {
 			        } else {
 				        exact.keepBodies(s);
 				        exact.measureStrip(s, false);
-				        if (rounded) roundStrip(s);
+				        if (rounded) narrowStrip(s);
 			        }
 		        });
 		if (settings.maxIterations == 0) exact.judgeAll();
@@ -99,10 +100,10 @@ namespace solving {
 	}
 
 	/// What sweeps in floats begin with, of the bodies and blocks of a strip.
-	template <class Dimension> void Solve<Dimension>::roundStrip(std::size_t s)
+	template <class Dimension> void Solve<Dimension>::narrowStrip(std::size_t s)
 	{
 		const std::size_t begin = laidOut.blockBegin[s];
-		kernels.round(
+		kernels.narrow(
 		        exact.blocksOf(s), exact.own.inverseLength.data() + begin, exact.countOf(s),
 		        rounded->blocksOf(s), rounded->own.inverseLength.data() + begin);
 		for (std::size_t b = begin; exact.playsOf(s) && b < laidOut.blockBegin[s + 1]; ++b)
@@ -152,7 +153,8 @@ namespace solving {
 		        omp_get_thread_num(), 2, [&](std::size_t s, int pass, const StripSchedule::Ahead&) {
 			        if (pass == 0) {
 				        if (take) {
-					        kernels.take(rounded->blocksOf(s), exact.countOf(s), exact.blocksOf(s));
+					        kernels.widen(
+					                rounded->blocksOf(s), exact.countOf(s), exact.blocksOf(s));
 					        for (std::size_t k = laidOut.otherBegin[s];
 					             k < laidOut.otherBegin[s + 1]; ++k)
 						        exact.rows[k].p = exact.rows[k].before = rounded->rows[k].p;
@@ -231,7 +233,7 @@ namespace solving {
 		statistics.strips     = static_cast<int>(laidOut.order.stripCount());
 		statistics.residual   = exact.residual;
 		statistics.changes    = exact.changes;
-		statistics.uneven     = laidOut.survey.uneven;
+		statistics.uneven     = laidOut.classification.uneven;
 		statistics.converged  = exact.solved(
 		         tolerance * (1 + 1e-6)); // velocities computed anew may round the other way
 		if (patches) {
@@ -255,7 +257,7 @@ solveIn(typename Dimension::Problem& problem, const typename Dimension::Settings
 	WorkspaceIn<Dimension>  own;
 	WorkspaceIn<Dimension>& memory = workspace ? *workspace : own;
 	layOut<Dimension>(problem, threadsFor(problem, settings), memory.laidOut, !settings.reference);
-	const auto scaling = scalingOfLostSquares(memory.laidOut.survey);
+	const auto scaling = scalingOfLostSquares(memory.laidOut.classification);
 	if (!scaling) return solving::Solve<Dimension>(problem, settings, memory).run();
 	auto       other      = scaled(problem, *scaling);
 	auto       statistics = solveIn<Dimension>(other, settings, &memory);

@@ -25,15 +25,15 @@ namespace {
 
 	/// Along an axis in the direction in which the numbers of bodies rise, so that a mirrored scene has the
 	/// mirrored strips; in the plane upwards along y.
-	Way along(const Coordinates& places, const Survey& survey, int axis)
+	Way along(const Coordinates& places, const Classification& classification, int axis)
 	{
 		if (axis > 0 && places.axes == 2) return { axis };
-		const auto moves = [](std::uint8_t trait) { return (trait & Survey::moves) != 0; };
-		const auto first = std::find_if(survey.traits.begin(), survey.traits.end(), moves);
-		const auto last  = std::find_if(survey.traits.rbegin(), survey.traits.rend(), moves);
-		if (first == survey.traits.end()) return { axis };
-		const double from = places(first - survey.traits.begin(), axis),
-		             to   = places(survey.traits.rend() - last - 1, axis);
+		const auto moves = [](std::uint8_t trait) { return (trait & Classification::moves) != 0; };
+		const auto first = std::find_if(classification.traits.begin(), classification.traits.end(), moves);
+		const auto last  = std::find_if(classification.traits.rbegin(), classification.traits.rend(), moves);
+		if (first == classification.traits.end()) return { axis };
+		const double from = places(first - classification.traits.begin(), axis),
+		             to   = places(classification.traits.rend() - last - 1, axis);
 		return { axis, to < from ? -1.0 : 1.0 };
 	}
 
@@ -82,11 +82,12 @@ namespace {
 	}
 
 	/// Length of the longest contact that strips have to be as wide as.
-	double reachOf(const Coordinates& places, const Survey& survey, int threads, int axis, double extent)
+	double
+	reachOf(const Coordinates& places, const Classification& classification, int threads, int axis, double extent)
 	{
-		const auto&  pairs   = survey.pairs;
+		const auto&  pairs   = classification.pairs;
 		const long   count   = static_cast<long>(pairs.size());
-		const double longest = survey.longest[axis];
+		const double longest = classification.longest[axis];
 		const double enough  = 0.5 * static_cast<double>(std::min(pairs.size() / contactsAStrip, fewStrips));
 		std::vector<double> half; // longest/2, longest/4, … to where strips are enough
 		for (double reach = longest; reach * enough > extent && half.size() < 32; half.push_back(reach))
@@ -174,21 +175,21 @@ namespace {
 
 	/// Puts bodies into bins and bins into strips. Returns whether strips stayed as they were, as far as that is
 	/// known without counting.
-	bool divide(const Coordinates& places, const Survey& survey, int threads, StripCut& result)
+	bool divide(const Coordinates& places, const Classification& classification, int threads, StripCut& result)
 	{
 		auto&       scratch    = result.scratch;
-		const auto& pairs      = survey.pairs;
+		const auto& pairs      = classification.pairs;
 		const auto  binsBefore = scratch.bins, widthBefore = scratch.width;
 		scratch.bins = scratch.width = 0;
-		if (places.count != survey.traits.size() || pairs.size() < 2 * contactsAStrip) return false;
+		if (places.count != classification.traits.size() || pairs.size() < 2 * contactsAStrip) return false;
 		Way ways[3] = { { 0 }, { 1 }, { 2 } };
 		for (int a = 0; a < places.axes; ++a)
-			ways[a] = along(places, survey, a);
+			ways[a] = along(places, classification, a);
 		sample(places, pairs, ways, scratch.samples);
 		int  axis = 0;
-		Span span = mostOf(scratch.samples[0], ways[0](survey.extents[0]));
+		Span span = mostOf(scratch.samples[0], ways[0](classification.extents[0]));
 		for (int a = 1; a < places.axes; ++a)
-			if (const Span other = mostOf(scratch.samples[a], ways[a](survey.extents[a]));
+			if (const Span other = mostOf(scratch.samples[a], ways[a](classification.extents[a]));
 			    other.length() > span.length()) {
 				axis = a;
 				span = other;
@@ -198,7 +199,7 @@ namespace {
 		if (!(extent > 0) || !std::isfinite(extent)) return false;
 		const std::size_t strips = pairs.size() / contactsAStrip;
 		const auto        bins   = static_cast<std::int32_t>(strips * binsAStrip);
-		const double      scale = bins / extent, reach = reachOf(places, survey, threads, axis, extent);
+		const double      scale = bins / extent, reach = reachOf(places, classification, threads, axis, extent);
 		scratch.bins  = bins;
 		scratch.width = static_cast<std::int32_t>(
 		        std::min<double>(bins, std::max(1.0, std::ceil(reach * rounding * scale))));
@@ -209,11 +210,14 @@ namespace {
 		for (long b = 0; b < bodies; ++b) {
 			const double at = std::clamp(
 			        (way.at(places, static_cast<std::int32_t>(b)) - span.low) * scale, 0.0, bins - 1.0);
-			const auto bin       = survey.traits[b] & Survey::moves ? static_cast<std::int32_t>(at) : -1;
+			const auto bin       = classification.traits[b] & Classification::moves
+			              ? static_cast<std::int32_t>(at)
+			              : -1;
 			moved                = moved || bin != scratch.binOfBody[b];
 			scratch.binOfBody[b] = bin;
 		}
-		if (survey.pairsKept && !moved && bins == binsBefore && scratch.width == widthBefore) return true;
+		if (classification.pairsKept && !moved && bins == binsBefore && scratch.width == widthBefore)
+			return true;
 		count(pairs, threads, bins, scratch.width, result);
 		share(strips, scratch.width, result);
 		return false;
@@ -221,17 +225,17 @@ namespace {
 
 } // namespace
 
-bool cutIntoStrips(const Coordinates& places, const Survey& survey, int threads, StripCut& result)
+bool cutIntoStrips(const Coordinates& places, const Classification& classification, int threads, StripCut& result)
 {
 	const auto before = result.count;
-	if (divide(places, survey, threads, result)) return true;
+	if (divide(places, classification, threads, result)) return true;
 	if (result.scratch.bins == 0) result.count = 1;
-	const long bodies = static_cast<long>(survey.traits.size());
-	bool       moved  = result.count != before || result.stripOfBody.size() != survey.traits.size();
-	result.stripOfBody.resize(survey.traits.size());
+	const long bodies = static_cast<long>(classification.traits.size());
+	bool       moved  = result.count != before || result.stripOfBody.size() != classification.traits.size();
+	result.stripOfBody.resize(classification.traits.size());
 #pragma omp parallel for schedule(static) num_threads(threads) reduction(|| : moved)
 	for (long b = 0; b < bodies; ++b) {
-		const auto strip      = !(survey.traits[b] & Survey::moves)
+		const auto strip      = !(classification.traits[b] & Classification::moves)
 		             ? -1
 		             : (result.count == 1 ? 0 : result.scratch.stripOfBin[result.scratch.binOfBody[b]]);
 		moved                 = moved || strip != result.stripOfBody[b];

@@ -6,7 +6,7 @@
 // too far are left over. Nor does a body far from all others widen strips: ends take in whatever lies beyond.
 #pragma once
 
-#include <contact/core/survey.hpp>
+#include <contact/core/classification.hpp>
 
 namespace nonsmooth::contact {
 
@@ -30,6 +30,6 @@ struct StripCut {
 /// One strip where places are missing or contacts few. The result depends neither on `threads` nor on what `result`
 /// held. Returns whether strips stayed as they were, which is asked where pairs did: bodies that stay in their bins
 /// need no counting.
-bool cutIntoStrips(const Coordinates& places, const Survey& survey, int threads, StripCut& result);
+bool cutIntoStrips(const Coordinates& places, const Classification& classification, int threads, StripCut& result);
 
 } // namespace nonsmooth::contact

@@ -29,7 +29,7 @@ namespace {
 
 	/// Sorts contacts by their parts; stable, so the contacts' own order decides the rest. Threads take shares of
 	/// them that do not depend on what they find.
-	void sortIntoParts(const Survey& survey, int threads, SweepOrder& result)
+	void sortIntoParts(const Classification& classification, int threads, SweepOrder& result)
 	{
 		auto&              scratch = result.scratch;
 		auto&              partOf  = scratch.partOf;
@@ -37,7 +37,7 @@ namespace {
 		const auto         stripAt = [&scratch](std::int32_t b) {
                         return MovablePair::moves(b) ? scratch.cut.stripOfBody[b] : -1;
 		};
-		const long count = static_cast<long>(survey.pairs.size());
+		const long count = static_cast<long>(classification.pairs.size());
 		partOf.resize(count);
 		result.order.resize(count);
 		result.evenStrips = even;
@@ -50,7 +50,8 @@ namespace {
 			auto&      next = scratch.counts[thread];
 			next.assign(strips + 1, 0);
 			for (long k = begin; k < end; ++k) {
-				const std::int32_t i = stripAt(survey.pairs[k].i), j = stripAt(survey.pairs[k].j);
+				const std::int32_t i     = stripAt(classification.pairs[k].i),
+				                   j     = stripAt(classification.pairs[k].j);
 				const std::int32_t strip = i < 0 ? std::max(j, 0) : (j < 0 ? i : std::min(i, j));
 				const bool         far   = i >= 0 && j >= 0 && std::abs(i - j) > 1;
 				partOf[k] = far ? strips : (strip % 2 == 0 ? strip / 2 : even + strip / 2);
@@ -107,20 +108,21 @@ void colour(
 	}
 }
 
-bool arrange(const Coordinates& places, const Survey& survey, int threads, SweepOrder& result)
+bool arrange(const Coordinates& places, const Classification& classification, int threads, SweepOrder& result)
 {
 	auto&      scratch    = result.scratch;
-	const bool sameStrips = cutIntoStrips(places, survey, threads, scratch.cut);
-	if (survey.pairsKept && sameStrips && !result.partBegin.empty()) return true;
+	const bool sameStrips = cutIntoStrips(places, classification, threads, scratch.cut);
+	if (classification.pairsKept && sameStrips && !result.partBegin.empty()) return true;
 		// each of the two goes from one contact or body to the next, but they do not need each other
 #pragma omp parallel sections num_threads(threads)
 	{
 #pragma omp section
-		if (!survey.pairsKept) colour(survey.pairs, survey.traits.size(), scratch.colours, scratch.used);
+		if (!classification.pairsKept)
+			colour(classification.pairs, classification.traits.size(), scratch.colours, scratch.used);
 #pragma omp section
 		sortBodies(result);
 	}
-	sortIntoParts(survey, threads, result);
+	sortIntoParts(classification, threads, result);
 	scratch.unsorted.resize(std::max<std::size_t>(scratch.unsorted.size(), threads));
 #pragma omp parallel for schedule(dynamic, 1) num_threads(threads)
 	for (std::size_t s = 0; s < result.partCount(); ++s)

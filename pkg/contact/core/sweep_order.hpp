@@ -43,7 +43,7 @@ void colour(
 
 /// Without places all contacts make one strip. The result depends neither on `threads` nor on what `result` held.
 /// Returns whether it is what it held
-/// already: `survey` says which pairs are kept, and where strips are too, so is the order.
-bool arrange(const Coordinates& places, const Survey& survey, int threads, SweepOrder& result);
+/// already: `classification` says which pairs are kept, and where strips are too, so is the order.
+bool arrange(const Coordinates& places, const Classification& classification, int threads, SweepOrder& result);
 
 } // namespace nonsmooth::contact

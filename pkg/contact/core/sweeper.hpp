@@ -24,7 +24,7 @@ template <class Dimension> struct RowIn {
 };
 
 /// What is to be reached, and what that may cost.
-struct Goal {
+struct StoppingCriterion {
 	double tolerance;
 	int    sweeps;
 };
@@ -51,7 +51,7 @@ public:
 
 	void plan();
 	/// Sweeps until the residual holds.
-	void iterate(const Goal& goal);
+	void iterate(const StoppingCriterion& until);
 	bool solved(double tolerance) const;
 	/// The residual from those of the strips.
 	void sumUp();

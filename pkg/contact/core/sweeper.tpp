@@ -37,7 +37,7 @@ Sweeper<Dimension, Number>::Sweeper(Problem& problem_, const Settings& settings_
 	bodies.resize(problem.bodyCount() + 1);
 	bodiesBefore.resize(problem.bodyCount() + 1);
 	bodies.back() = Motion {};
-	scale         = { roundedShare<Number>(), 0, leastSquaredSpeed<Number>(laidOut.survey.fastest) };
+	scale         = { roundedShare<Number>(), 0, leastSquaredSpeed<Number>(laidOut.classification.fastest) };
 	strips.reset(laidOut.order.partBegin, laidOut.order.evenStrips);
 }
 
@@ -296,8 +296,9 @@ template <class Dimension, class Number> void Sweeper<Dimension, Number>::measur
 
 template <class Dimension, class Number> bool Sweeper<Dimension, Number>::solved(double tolerance) const
 {
-	return settings.stopping == StoppingTest::NaturalMap ? residual.missed(tolerance, laidOut.survey.uneven) <= 1
-	                                                     : changes.figure(settings.stopping) <= tolerance;
+	return settings.stopping == StoppingTest::NaturalMap
+	        ? residual.missed(tolerance, laidOut.classification.uneven) <= 1
+	        : changes.figure(settings.stopping) <= tolerance;
 }
 
 /// All strips are visited again.
@@ -308,7 +309,7 @@ template <class Dimension, class Number> void Sweeper<Dimension, Number>::wakeSt
 	if (strips.wakeAll()) schedule.plan(laidOut.order.partBegin, laidOut.order.evenStrips, omp_get_num_threads());
 }
 
-template <class Dimension, class Number> void Sweeper<Dimension, Number>::iterate(const Goal& goal)
+template <class Dimension, class Number> void Sweeper<Dimension, Number>::iterate(const StoppingCriterion& until)
 {
 	Method              method = settings.method;
 	Extrapolation       extrapolation(method);
@@ -319,21 +320,21 @@ template <class Dimension, class Number> void Sweeper<Dimension, Number>::iterat
 	RestartRule         rule(residual.rms, settings.checkEvery);
 	StagnationRule      stagnation(residual.rms);
 	std::vector<double> betas; // of the sweeps until the next look at the residual
-	while (!solved(goal.tolerance) && std::isfinite(residual.rms + residual.speed)) {
+	while (!solved(until.tolerance) && std::isfinite(residual.rms + residual.speed)) {
 		if (method == Method::Accelerated && chosen >= sweeping::shortestRest) {
-			chooseStrips(goal.tolerance);
+			chooseStrips(until.tolerance);
 			chosen = 0;
 		}
 		// what a sweep counts for; threads wait for each other in short ones too
 		const double one = std::max(static_cast<double>(strips.contacts()), all / 4);
-		betas.resize(std::min<double>(settings.checkEvery, (goal.sweeps * all - made) / one));
+		betas.resize(std::min<double>(settings.checkEvery, (until.sweeps * all - made) / one));
 		if (betas.empty()) break;
 		for (double& b : betas)
 			b = extrapolation.next();
 		sweep(betas);
 		made += static_cast<double>(betas.size()) * one;
 		chosen += static_cast<int>(betas.size());
-		judge(goal.tolerance);
+		judge(until.tolerance);
 		if (method != Method::Accelerated) continue;
 		const bool stagnates = stagnation.asks(residual.rms, static_cast<int>(betas.size()));
 		if (!rule.asks(residual.rms) && !stagnates) continue;

@@ -49,7 +49,7 @@ struct Plane {
 	using Problem                        = contact::Problem;
 	using Contact                        = contact::Contact;
 	using Impulse                        = contact::Impulse;
-	using Inverse                        = contact::Impulse; // 1/W of each row
+	using Inverse                        = contact::Diagonal; // 1/W of each row
 	using Twist                          = contact::Twist;
 	using InverseMass                    = contact::InverseMass;
 	template <class Number> using Block  = contact::Block<Number>;

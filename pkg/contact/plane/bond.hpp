@@ -134,14 +134,17 @@ inline void setPlay(Contact& c, double restGap, double gap, double h)
 }
 
 /// How fast a bond opens beyond its length [m/s].
-inline double openingOf(const Contact& c, const Impulse& u) { return c.play > 0 ? u.n + c.biasN - c.play : u.n; }
+inline double openingOf(const Contact& c, const RelativeVelocity& u)
+{
+	return c.play > 0 ? u.n + c.biasN - c.play : u.n;
+}
 
 /// A threshold counts as reached at this share of it.
 constexpr double reached = 1 - 1e-9;
 
 /// Whether a bond with impulses p and velocities u at the end of the step has reached its tensile threshold and opens:
 /// it keeps its new length.
-inline bool yieldsInTension(const Contact& c, const Impulse& p, const Impulse& u)
+inline bool yieldsInTension(const Contact& c, const Impulse& p, const RelativeVelocity& u)
 {
 	return c.adhesion > 0 && p.n <= -reached * c.adhesion && openingOf(c, u) > 0;
 }
@@ -157,7 +160,7 @@ inline bool yieldsInTorque(const Contact& c, const Impulse& p)
 }
 
 /// By how much a bond yields in a step of length h [s].
-inline YieldPath yieldOfStep(const Contact& c, const Impulse& p, const Impulse& u, double h)
+inline YieldPath yieldOfStep(const Contact& c, const Impulse& p, const RelativeVelocity& u, double h)
 {
 	YieldPath y;
 	if (yieldsInTension(c, p, u)) y.tension = std::max(0.0, h * openingOf(c, u));

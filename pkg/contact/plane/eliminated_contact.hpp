@@ -40,7 +40,7 @@ struct Product {
 /// z_drawn − z_spare.
 struct Eliminated {
 	std::array<std::array<double, 6>, 3> rows; // H
-	Impulse                              w, inverse; // W and 1/W
+	Diagonal                             w, inverse; // W and 1/W
 	std::array<double, 3>                p; // P̂, P_t, P_r
 	std::array<double, 2>                arm; // μ_s, μ_r ℓ
 	Product                              normal, drawn, spare, plus[2], minus[2];

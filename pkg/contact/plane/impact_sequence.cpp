@@ -12,7 +12,7 @@ namespace {
 	constexpr std::size_t largest = 64; // contacts that hang together
 	constexpr double      never   = std::numeric_limits<double>::infinity();
 
-	void add(Twist& x, double factor, const Twist& v)
+	template <class Row> void add(Row& x, double factor, const Row& v)
 	{
 		x.x += factor * v.x;
 		x.y += factor * v.y;
@@ -218,7 +218,8 @@ bool ImpactSequence::sweep()
 		for (std::size_t k = 0; k < touching.size(); ++k) {
 			const Contact& c  = frames[k];
 			const auto &   mi = masses[c.i], &mj = masses[c.j];
-			const Impulse  inverse = inverseDelassus(c, mi, mj), old = impulses[k];
+			const Diagonal inverse = inverseDelassus(c, mi, mj);
+			const Impulse  old     = impulses[k];
 			const Impulse  p = impulses[k] = visit(
 			         c, old, inverse, mi, mj, flights[c.i].velocity, flights[c.j].velocity);
 			changed = std::max({ changed, speed(p.n - old.n, inverse.n), speed(p.t - old.t, inverse.t),
@@ -234,14 +235,18 @@ void ImpactSequence::record()
 	events.push_back({ hits.size(), hits.size() + touching.size() });
 	++states[groupOf(bodies.front())].events;
 	for (std::size_t k = 0; k < touching.size(); ++k) {
-		const Contact& c = frames[k];
-		const Impulse &p = impulses[k], &u0 = approach[k];
-		const Impulse  u1 = relativeVelocity(c, flights[c.i].velocity, flights[c.j].velocity);
-		Hit            hit { touching[k],
+		const Contact&          c  = frames[k];
+		const Impulse&          p  = impulses[k];
+		const RelativeVelocity &u0 = approach[k],
+		                       u1  = relativeVelocity(c, flights[c.i].velocity, flights[c.j].velocity);
+		Hit   hit { touching[k],
                           { p, -0.5 * p.n * (u0.n + u1.n), -0.5 * p.t * (u0.t + u1.t), -0.5 * p.r * (u0.r + u1.r), 1 },
                           {},
                           {} };
-		applyImpulse(c, p, { 1, 1, 1 }, { 1, 1, 1 }, hit.onI, hit.onJ);
+		Twist onI, onJ; // of unit masses: the impulses
+		applyImpulse(c, p, { 1, 1, 1 }, { 1, 1, 1 }, onI, onJ);
+		hit.onI = { onI.x, onI.y, onI.w };
+		hit.onJ = { onJ.x, onJ.y, onJ.w };
 		hits.push_back(hit);
 	}
 }

@@ -62,10 +62,10 @@ public:
 
 	/// What became of a body.
 	struct Flight {
-		Twist velocity; // at the step's end
-		Twist shift; // s [m, m, rad]
-		Twist impulse; // all it got [N s, N s, N m s]
-		bool  struck = false; // by impacts that were followed
+		Twist  velocity; // at the step's end
+		Twist  shift; // s [m, m, rad]
+		Wrench impulse; // all it got [N s, N s, N m s]
+		bool   struck = false; // by impacts that were followed
 	};
 
 	/// Finds the impacts of a step; returns how many were followed.
@@ -88,7 +88,7 @@ private:
 	struct Hit {
 		int         pair;
 		PairImpacts impacts;
-		Twist       onI, onJ; // impulses on its bodies
+		Wrench      onI, onJ; // impulses on its bodies
 	};
 	struct Event {
 		std::size_t begin, end; // of its pairs, in `hits`
@@ -135,9 +135,10 @@ private:
 	std::vector<Hit>               hits;
 	// of one impact: the pairs that hang together, their bodies that move; as they stand, their velocities before,
 	// what they get
-	std::vector<int>     touching, bodies;
-	std::vector<Contact> frames;
-	std::vector<Impulse> approach, impulses;
+	std::vector<int>              touching, bodies;
+	std::vector<Contact>          frames;
+	std::vector<RelativeVelocity> approach;
+	std::vector<Impulse>          impulses;
 };
 
 } // namespace nonsmooth::contact

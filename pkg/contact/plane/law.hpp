@@ -48,7 +48,7 @@ inline Impulse project(const Contact& c, const Impulse& p)
 }
 
 /// Diagonal of the Delassus operator at one contact: W_nn, W_tt [1/kg], W_rr [1/(kg m²)].
-inline Impulse delassus(const Contact& c, const InverseMass& mi, const InverseMass& mj)
+inline Diagonal delassus(const Contact& c, const InverseMass& mi, const InverseMass& mj)
 {
 	const double x = mi.x + mj.x, y = mi.y + mj.y;
 	return { c.nx * c.nx * x + c.ny * c.ny * y + mi.w * c.leverNi * c.leverNi + mj.w * c.leverNj * c.leverNj,
@@ -57,7 +57,7 @@ inline Impulse delassus(const Contact& c, const InverseMass& mi, const InverseMa
 }
 
 /// Its inverse: 1/W_nn, 1/W_tt, 1/W_rr; from 1/W_nn where W_tt or W_rr is 0, 0 where W_nn is.
-inline Impulse inverseDelassus(const Contact& c, const InverseMass& mi, const InverseMass& mj)
+inline Diagonal inverseDelassus(const Contact& c, const InverseMass& mi, const InverseMass& mj)
 {
 	const auto [wn, wt, wr] = delassus(c, mi, mj);
 	// A row that no impulse moves may still be driven (a wall drawn under a disk that is held): any factor leads to
@@ -69,7 +69,7 @@ inline Impulse inverseDelassus(const Contact& c, const InverseMass& mi, const In
 /// One contact solved while all others keep their impulses, one after the other of its three graphs: from the impulses
 /// `y` to those returned, with the velocities of its bodies.
 inline Impulse
-visit(const Contact& c, const Impulse& y, const Impulse& inverse, const InverseMass& mi, const InverseMass& mj,
+visit(const Contact& c, const Impulse& y, const Diagonal& inverse, const InverseMass& mi, const InverseMass& mj,
       Twist& vi, Twist& vj)
 {
 	const double n = obeyNormal(c, y.n - inverse.n * (relativeVelocity(c, vi, vj).n + c.biasN), inverse.n);
@@ -86,7 +86,7 @@ visit(const Contact& c, const Impulse& y, const Impulse& inverse, const InverseM
 /// Impulses of a contact whose relative velocities `u` are given, so that no impulse changes them: what the graphs say,
 /// and where they allow a range the least of it. It is the limit of bodies whose masses grow without end. Where the
 /// bodies approach (U_n < 0, or beyond touch what has play) no finite impulse obeys the law: none.
-inline Impulse impulseOfGivenMotion(const Contact& c, const Impulse& u)
+inline Impulse impulseOfGivenMotion(const Contact& c, const RelativeVelocity& u)
 {
 	const bool   plays = c.play > 0;
 	const double lost  = plays ? u.n + c.biasN : u.n; // where the bodies touch, and
@@ -102,7 +102,7 @@ inline Impulse impulseOfGivenMotion(const Contact& c, const Impulse& u)
 /// Natural map: what one contact misses of its graphs, P − proj(P − (U + b)/W), row by row [N s, N s, N m s]; with play
 /// the proximal point is in the place of the nearest. `u`: relative velocity without bias; `inverse`: inverseDelassus
 /// of the contact.
-inline Impulse naturalMapDefect(const Contact& c, const Impulse& p, const Impulse& u, const Impulse& inverse)
+inline Impulse naturalMapDefect(const Contact& c, const Impulse& p, const RelativeVelocity& u, const Diagonal& inverse)
 {
 	return { p.n - obeyNormal(c, p.n - inverse.n * (u.n + c.biasN), inverse.n),
 		 p.t - projectThreshold(p.t - inverse.t * (u.t + c.biasT), slidingThreshold(c, p.n)),

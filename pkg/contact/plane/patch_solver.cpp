@@ -21,9 +21,9 @@ PatchSolver::PatchSolver(Sweeper<Plane, double>& sweeper_)
 
 void PatchSolver::readContact(std::int32_t index, PatchProblem& to) const
 {
-	const Problem& problem = sweeper.problem;
-	Contact        c       = problem.contacts[index];
-	const Impulse  u       = relativeVelocity(c, problem.freeVelocity[c.i], problem.freeVelocity[c.j]);
+	const Problem&         problem = sweeper.problem;
+	Contact                c       = problem.contacts[index];
+	const RelativeVelocity u       = relativeVelocity(c, problem.freeVelocity[c.i], problem.freeVelocity[c.j]);
 	if (!(inverseDelassus(c, problem.inverseMass[c.i], problem.inverseMass[c.j]).n > 0)) return;
 	addBias(c, u);
 	const auto place = [&](std::int32_t b) {

@@ -22,6 +22,11 @@ struct Twist {
 	double x = 0, y = 0, w = 0;
 };
 
+/// Force and torque on a body [N, N m], or their impulses [N s, N m s].
+struct Wrench {
+	double x = 0, y = 0, w = 0;
+};
+
 /// A place in the plane [m].
 struct Point {
 	double x = 0, y = 0;
@@ -35,6 +40,16 @@ struct InverseMass {
 
 /// Reaction impulses of one contact: normal [N s], tangential [N s], rolling [N m s].
 struct Impulse {
+	double n = 0, t = 0, r = 0;
+};
+
+/// Relative velocity at a contact: U_n, U_t [m/s] and w [rad/s].
+struct RelativeVelocity {
+	double n = 0, t = 0, r = 0;
+};
+
+/// W of each row of a contact, or its inverse.
+struct Diagonal {
 	double n = 0, t = 0, r = 0;
 };
 
@@ -65,7 +80,7 @@ struct Problem {
 };
 
 /// Relative velocity (U_n, U_t, w) of a contact for given body velocities, without bias.
-inline Impulse relativeVelocity(const Contact& c, const Twist& vi, const Twist& vj)
+inline RelativeVelocity relativeVelocity(const Contact& c, const Twist& vi, const Twist& vj)
 {
 	const double dx = vj.x - vi.x, dy = vj.y - vi.y;
 	return { c.nx * dx + c.ny * dy + c.leverNj * vj.w - c.leverNi * vi.w,
@@ -101,7 +116,7 @@ inline Impulse extrapolated(const Impulse& now, const Impulse& before, double be
 inline Impulse difference(const Impulse& a, const Impulse& b) { return { a.n - b.n, a.t - b.t, a.r - b.r }; }
 
 /// Adds a relative velocity to the biases of a contact.
-inline void addBias(Contact& c, const Impulse& u)
+inline void addBias(Contact& c, const RelativeVelocity& u)
 {
 	c.biasN += u.n;
 	c.biasT += u.t;

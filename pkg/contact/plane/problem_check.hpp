@@ -1,5 +1,5 @@
 // What the solver refuses before it starts: numbers and sizes that it cannot compute with. Who reads bodies and
-// contacts anyway asks usable() of each (survey.hpp), so that memory is gone through once.
+// contacts anyway asks usable() of each (classification.hpp), so that memory is gone through once.
 #pragma once
 
 #include <cmath>

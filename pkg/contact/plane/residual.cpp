@@ -27,8 +27,8 @@ namespace {
 	std::pair<double, double>
 	missedSpeeds(const Contact& c, const Impulse& defect, const InverseMass& mi, const InverseMass& mj)
 	{
-		const Impulse w = delassus(c, mi, mj);
-		const double  n = w.n * defect.n, t = w.t * defect.t, r = (c.leverTi - c.leverTj) * (w.r * defect.r);
+		const Diagonal w = delassus(c, mi, mj);
+		const double   n = w.n * defect.n, t = w.t * defect.t, r = (c.leverTi - c.leverTj) * (w.r * defect.r);
 		return { n * n + t * t, r * r };
 	}
 }
@@ -58,7 +58,7 @@ SpeedShare speedShare(
 
 SpeedResidual naturalMapSpeeds(const Problem& problem)
 {
-	return residuals::speedsIn(problem, [](const Contact& c, const Impulse& defect, const Impulse& w) {
+	return residuals::speedsIn(problem, [](const Contact& c, const Impulse& defect, const Diagonal& w) {
 		const auto   speed = [](double defect, double inverse) { return inverse > 0 ? defect / inverse : 0; };
 		const double n = speed(defect.n, w.n), t = speed(defect.t, w.t), r = speed(defect.r, w.r) * c.length;
 		return n * n + t * t + r * r;

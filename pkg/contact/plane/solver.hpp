@@ -15,7 +15,7 @@
 #include <contact/plane/block_kernels.hpp>
 #include <contact/plane/residual.hpp>
 #include <contact/plane/stopping.hpp>
-#include <contact/plane/survey.hpp>
+#include <contact/plane/classification.hpp>
 
 namespace nonsmooth::contact {
 

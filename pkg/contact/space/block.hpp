@@ -1,7 +1,7 @@
 // Eight contacts in space at a time: the data of a sweep. contact/core/lanes.hpp and plane/block_kernels.hpp say how
 // blocks, lanes and instruction sets go together; the loops are space/kernels.inc.
 //
-// Only contacts of balls fit in (space/survey.hpp), so that each row's block of the Delassus operator is one number.
+// Only contacts of balls fit in (space/classification.hpp), so that each row's block of the Delassus operator is one number.
 // Impulses and biases are vectors of the world. Bodies carry what impulses have changed of their free
 // velocities, and contacts have in their biases what free velocities make of them.
 #pragma once

@@ -12,7 +12,7 @@
 #include <contact/core/settings.hpp>
 #include <contact/core/workspace.hpp>
 #include <contact/space/block.hpp>
-#include <contact/space/survey.hpp>
+#include <contact/space/classification.hpp>
 
 namespace nonsmooth::contact::space {
 

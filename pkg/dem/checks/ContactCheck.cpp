@@ -123,7 +123,7 @@ void checkSureReach(const Scene& scene, Real openGap)
 			       nscd->bondCreationDistance);
 }
 
-void checkShapes(const Scene& scene, const std::vector<BodyReading>& bodies, const std::vector<int>& shaped)
+void checkShapes(const Scene& scene, const std::vector<BodyState>& bodies, const std::vector<int>& shaped)
 {
 	InteractionLoop* loop     = nullptr;
 	Collider*        collider = nullptr;
@@ -135,7 +135,7 @@ void checkShapes(const Scene& scene, const std::vector<BodyReading>& bodies, con
 	}
 	if (!loop || !collider) return; // separate dispatchers, which are YADE's own affair
 	checkReach(*loop, *collider);
-	const auto isDisk = [](const BodyReading& b) { return b.present && b.radius > 0 && !b.clumped; };
+	const auto isDisk = [](const BodyState& b) { return b.present && b.radius > 0 && !b.clumped; };
 	for (const int id : shaped) {
 		const auto& b = (*scene.bodies)[id];
 		if (!b->shape && b->isBounded() && (bodies[id].blocked & inPlane) != inPlane)
@@ -172,14 +172,14 @@ void checkShapes(const Scene& scene, const std::vector<BodyReading>& bodies, con
 	}
 }
 
-void checkMaterials(const Scene& scene, const std::vector<BodyReading>& bodies)
+void checkMaterials(const Scene& scene, const std::vector<BodyState>& bodies)
 {
 	InteractionLoop* loop = nullptr;
 	for (const auto& engine : scene.engines)
 		if (auto* found = engine->dead ? nullptr : dynamic_cast<InteractionLoop*>(engine.get())) loop = found;
 	if (!loop) return;
 	const auto rigid = [](const Body& b) { return dynamic_cast<const NscdMat*>(b.material.get()); };
-	const auto disk  = std::find_if(bodies.begin(), bodies.end(), [&](const BodyReading& b) {
+	const auto disk  = std::find_if(bodies.begin(), bodies.end(), [&](const BodyState& b) {
                 return b.present && b.radius > 0 && rigid(*(*scene.bodies)[&b - bodies.data()]);
         });
 	if (disk == bodies.end()) return; // nothing here is rigid
@@ -202,9 +202,9 @@ void checkMaterials(const Scene& scene, const std::vector<BodyReading>& bodies)
 	}
 }
 
-void refuseContact(const Scene& scene, const Reading& reading)
+void refuseContact(const Scene& scene, const ContactState& state)
 {
-	const Interaction& i    = *reading.interaction;
+	const Interaction& i    = *state.interaction;
 	const string       pair = "interaction #" + std::to_string(i.getId1()) + "+#" + std::to_string(i.getId2());
 	const auto &       b1 = (*scene.bodies)[i.getId1()], &b2 = (*scene.bodies)[i.getId2()];
 	for (const auto& b : { b1, b2 }) { // what is wrong with a material is wrong with its contacts
@@ -220,10 +220,10 @@ void refuseContact(const Scene& scene, const Reading& reading)
 			fail(body(b->getId()) + ": " + error.what());
 		}
 	}
-	if (!reading.phys)
+	if (!state.phys)
 		fail(pair + " has a " + i.phys->getClassName()
 		     + ": give both bodies an NscdMat and use Ip2_NscdMat_NscdMat_NscdPhys");
-	if (!std::isfinite(reading.nx + reading.ny + reading.nz)) {
+	if (!std::isfinite(state.nx + state.ny + state.nz)) {
 		const auto place = [](const Body& b) {
 			return number(b.state->pos[0]) + ", " + number(b.state->pos[1]);
 		};
@@ -232,15 +232,15 @@ void refuseContact(const Scene& scene, const Reading& reading)
 		       "other in steps that were not solved: check"
 		       " contactDynamics.overlapWorst and .unconverged of the steps before, and move one of them");
 	}
-	if (!reading.usable && std::abs(reading.nz) > flatness)
+	if (!state.usable && std::abs(state.nz) > flatness)
 		fail(pair + " has a normal that leaves the x-y plane, of which only a part would act (z component "
-		     + number(reading.nz) + "; centres at z = " + number(b1->state->pos[2]) + " and "
+		     + number(state.nz) + "; centres at z = " + number(b1->state->pos[2]) + " and "
 		     + number(b2->state->pos[2]) + " m): put all disks at one z, and walls upright to the plane");
-	if (const char* name = reading.phys->unheard()) refuseWritten(pair, *reading.phys, name);
-	const auto [name, value] = reading.phys->senseless();
-	fail(pair + " has values out of their range: friction " + number(reading.friction) + ", tensile force "
-	     + number(reading.adhesion) + " N, rolling arm " + number(reading.rollingArm) + " m, mean diameter "
-	     + number(reading.length) + " m, restitution " + number(reading.restitution)
+	if (const char* name = state.phys->unheard()) refuseWritten(pair, *state.phys, name);
+	const auto [name, value] = state.phys->senseless();
+	fail(pair + " has values out of their range: friction " + number(state.friction) + ", tensile force "
+	     + number(state.adhesion) + " N, rolling arm " + number(state.rollingArm) + " m, mean diameter "
+	     + number(state.length) + " m, restitution " + number(state.restitution)
 	     + (name ? string(", phys.") + name + " " + number(value) : "")
 	     + "; all must be finite and not negative, the diameter and a bond's ellipse positive, restitution from "
 	       "0 to 1: set them in its phys, or take the values of the materials with "

@@ -2,7 +2,7 @@
 #include "../engines/PorePressureEngine.hpp"
 #include "Refusal.hpp"
 #include "SceneCheck.hpp"
-#include "../seam/ContactReading.hpp"
+#include "../seam/ContactState.hpp"
 #include <pkg/common/ForceEngine.hpp>
 #include <pkg/common/TorqueEngine.hpp>
 #include <pkg/dem/NewtonIntegrator.hpp>

@@ -5,8 +5,8 @@
 // shapes of the bodies that are no disks, the numbers of each contact. None of it costs a thousandth of a step.
 #pragma once
 
-#include "../seam/BodyReading.hpp"
-#include "../seam/ContactReading.hpp"
+#include "../seam/BodyState.hpp"
+#include "../seam/ContactState.hpp"
 
 namespace yade::nscd {
 
@@ -32,14 +32,14 @@ void checkSureReach(const Scene& scene, Real openGap);
 
 /// Refuses bodies that could be touched and never are, since the engines have no functor for their shapes; `shaped`:
 /// those that are no disks and of no clump. Throws std::runtime_error.
-void checkShapes(const Scene& scene, const std::vector<BodyReading>& bodies, const std::vector<int>& shaped);
+void checkShapes(const Scene& scene, const std::vector<BodyState>& bodies, const std::vector<int>& shaped);
 
 /// Refuses bodies of another material whose contacts with disks no functor could make: YADE's InteractionLoop ends the
 /// process there. Goes through all bodies, so it is asked where these have been read anew. Throws std::runtime_error.
-void checkMaterials(const Scene& scene, const std::vector<BodyReading>& bodies);
+void checkMaterials(const Scene& scene, const std::vector<BodyState>& bodies);
 
-/// Refuses a reading that is not Reading::usable, or has another physics: says why. Throws std::runtime_error.
-[[noreturn]] void refuseContact(const Scene& scene, const Reading& reading);
+/// Refuses a state that is not ContactState::usable, or has another physics: says why. Throws std::runtime_error.
+[[noreturn]] void refuseContact(const Scene& scene, const ContactState& state);
 
 /// Whether a scene has a ContactDynamicsEngine that runs; without one contacts bear nothing, and nothing else says so.
 bool hasSolver(const Scene& scene);

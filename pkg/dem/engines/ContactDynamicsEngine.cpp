@@ -204,8 +204,8 @@ void ContactDynamicsEngine::account(const nscd::StepSums& s)
 void ContactDynamicsEngine::recordBreaks(const nscd::Resident& resident)
 {
 	for (const size_t k : seam.broken) {
-		const nscd::Reading& r  = seam.readingOf(seam.links[k]);
-		const Vector3r       at = resident.contactPoint(r);
+		const nscd::ContactState& r  = seam.stateOf(seam.links[k]);
+		const Vector3r            at = resident.contactPoint(r);
 		breakLog.insert(
 		        breakLog.end(),
 		        { Real(scene->iter), scene->time, Real(std::min(r.first, r.second)),

@@ -25,8 +25,8 @@ boost::python::dict ContactDynamicsEngine::contactForms()
 	boost::python::dict bytes;
 	const auto          tell = [&bytes](const char* form, size_t size) { bytes[form] = size; };
 	tell("order", sizeof(nscd::Resident::Place));
-	tell("state", sizeof(nscd::Reading));
-	tell("bond", sizeof(nscd::BondReading));
+	tell("state", sizeof(nscd::ContactState));
+	tell("bond", sizeof(nscd::BondState));
 	tell("strain", sizeof(nscd::BondStrain));
 	tell("link", sizeof(nscd::Link));
 	tell("contact", sizeof(Contact));
@@ -175,7 +175,7 @@ boost::python::object ContactDynamicsEngine::contactTable() const
 	std::vector<double> rows;
 	const auto          add   = [&](const Row& row) { rows.insert(rows.end(), row.begin(), row.end()); };
 	const auto          guard = nscd::Resident::of(here)->betweenTurns();
-	nscd::Resident::of(here)->showBare([&](const nscd::Reading& r, const Vector3r& at) {
+	nscd::Resident::of(here)->showBare([&](const nscd::ContactState& r, const Vector3r& at) {
 		add({ double(r.first), double(r.second), r.normal, r.tangential, r.torque, r.nx, r.ny, r.gap,
 		      double(r.bonded), double(NscdPhys::None), at[0], at[1] });
 	});

@@ -187,7 +187,7 @@ string ContactDynamicsEngine::tellWorstPair()
 	                             shares.begin(), shares.end(),
 	                             [](const auto& a, const auto& b) { return a.point < b.point; })
 	        - shares.begin();
-	const auto& r     = seam.readingOf(seam.links[worst]);
+	const auto& r     = seam.stateOf(seam.links[worst]);
 	const auto& here  = seam.problem.contacts[worst];
 	residualSpeedPair = Vector2i(std::min(r.first, r.second), std::max(r.first, r.second));
 	std::ostringstream text;

@@ -27,7 +27,7 @@ YADE_PLUGIN((NscdInteractionLoop));
         typeid(NscdInteractionLoop), nscd::EngineRole::TakesTurns);
 
 namespace {
-	using nscd::fetch, nscd::soon, nscd::later, nscd::Reading;
+	using nscd::fetch, nscd::soon, nscd::later, nscd::ContactState;
 	namespace contact = nonsmooth::contact;
 	namespace plane   = contact::plane;
 
@@ -50,7 +50,7 @@ namespace {
 	/// What a bond of two disks has slipped and turned; where it yielded so in the step before, it is at rest with
 	/// that.
 	void followStrain(
-	        Reading& r, bool swap, const nscd::BodyReading& p1, const nscd::BodyReading& p2,
+	        ContactState& r, bool swap, const nscd::BodyState& p1, const nscd::BodyState& p2,
 	        const plane::BondMarks& marks, plane::BondStrain& rest)
 	{
 		const auto &         first = swap ? p2 : p1, &second = swap ? p1 : p2;
@@ -71,7 +71,7 @@ namespace {
 
 	/// Makes the bond that a script has asked for, see NscdPhys::isBondWanted.
 	void makeBond(
-	        Reading& r, plane::BondMarks& marks, const plane::Motion& first, const nscd::BodyReading& second,
+	        ContactState& r, plane::BondMarks& marks, const plane::Motion& first, const nscd::BodyState& second,
 	        bool swap)
 	{
 		const contact::Point normal { swap ? -r.nx : r.nx, swap ? -r.ny : r.ny };
@@ -156,14 +156,14 @@ void NscdInteractionLoop::action()
 	const auto& bodies = resident.bodies;
 	const long  size = (long)bodies.size(), count = (long)resident.order.size();
 	resident.places.resize(size);
-	const auto isOurs   = [](const nscd::BodyReading& b) { return b.plain && b.planar; };
-	const auto keeperOf = [&](const Reading& r) {
+	const auto isOurs   = [](const nscd::BodyState& b) { return b.plain && b.planar; };
+	const auto keeperOf = [&](const ContactState& r) {
 		if (!ours.spheres || !ours.law || !r.phys || !isOurs(bodies[r.first]) || !isOurs(bodies[r.second])
 		    || typeid(*r.phys) != typeid(NscdPhys))
-			return Reading::Functors;
+			return ContactState::Functors;
 		const auto& cache = r.interaction->functorCache;
-		return cache.constLaw.get() == ours.law && cache.geom.get() == ours.spheres ? Reading::Arrays
-		                                                                            : Reading::Functors;
+		return cache.constLaw.get() == ours.law && cache.geom.get() == ours.spheres ? ContactState::Arrays
+		                                                                            : ContactState::Functors;
 	};
 	struct alignas(64) Part {
 		// contacts that go through their functors, that are forgotten, and that are to have an interaction:
@@ -182,15 +182,15 @@ void NscdInteractionLoop::action()
 			const int slot = resident.order[k].slot;
 			if (k + (long)later < count) {
 				const int ahead = resident.order[k + later].slot;
-				fetch<nscd::commonOfReading>(&resident.readings[ahead]);
-				fetch<sizeof(nscd::BondReading)>(&resident.bonds[ahead]);
+				fetch<nscd::commonOfState>(&resident.states[ahead]);
+				fetch<sizeof(nscd::BondState)>(&resident.bonds[ahead]);
 			}
-			Reading& r = resident.readings[slot];
+			ContactState& r = resident.states[slot];
 			// functors in use and the contact's own are what they were, or it was read anew; its bodies may
 			// have changed
 			const bool differ = !isOurs(bodies[r.first]) || !isOurs(bodies[r.second]);
-			if (!r.bare && (r.keeper == Reading::Unknown || differ)) r.keeper = keeperOf(r);
-			if (r.keeper == Reading::Functors) part.others.push_back(int(k));
+			if (!r.bare && (r.keeper == ContactState::Unknown || differ)) r.keeper = keeperOf(r);
+			if (r.keeper == ContactState::Functors) part.others.push_back(int(k));
 			else if (const auto next = r.bare && differ ? Next::Unmade : follow(resident, slot, ours);
 			         next != Next::Stays)
 				(next == Next::Gone ? part.gone : part.unmade).push_back(int(k));
@@ -199,11 +199,11 @@ void NscdInteractionLoop::action()
 	std::vector<int> others;
 	for (const Part& part : parts) {
 		for (const int k : part.unmade) {
-			const int slot = resident.order[k].slot;
-			Reading&  r    = resident.readings[slot];
+			const int     slot = resident.order[k].slot;
+			ContactState& r    = resident.states[slot];
 			resident.make(slot);
 			if (!r.bare) r.keeper = keeperOf(r);
-			if (r.keeper == Reading::Functors) others.push_back(k);
+			if (r.keeper == ContactState::Functors) others.push_back(k);
 			else if (r.bare || follow(resident, slot, ours) != Next::Stays)
 				resident.gone.push_back(k);
 		}
@@ -222,15 +222,15 @@ void NscdInteractionLoop::action()
 /// functor.
 NscdInteractionLoop::Next NscdInteractionLoop::follow(nscd::Resident& resident, int slot, const Ours& ours) const
 {
-	Reading&    r    = resident.readings[slot];
-	auto&       bond = resident.bonds[slot];
-	const auto &p1 = resident.bodies[r.first], &p2 = resident.bodies[r.second];
-	const Real  dz = p2.z - p1.z; // disks may be a little out of one plane, see nscd::flatness
-	const auto  at = plane::diskContact(p1.motion.position, p2.motion.position, p1.radius, p2.radius, dz);
-	r.nx           = at.nx;
-	r.ny           = at.ny;
-	r.nz           = dz == 0 && at.distance > 0 ? dz : dz / at.distance;
-	r.gap          = at.gap;
+	ContactState& r    = resident.states[slot];
+	auto&         bond = resident.bonds[slot];
+	const auto &  p1 = resident.bodies[r.first], &p2 = resident.bodies[r.second];
+	const Real    dz = p2.z - p1.z; // disks may be a little out of one plane, see nscd::flatness
+	const auto    at = plane::diskContact(p1.motion.position, p2.motion.position, p1.radius, p2.radius, dz);
+	r.nx             = at.nx;
+	r.ny             = at.ny;
+	r.nz             = dz == 0 && at.distance > 0 ? dz : dz / at.distance;
+	r.gap            = at.gap;
 	if (r.broken != NscdPhys::None && !r.phys->breaks) r.broken = NscdPhys::None; // that was the step before
 	bool       refresh = r.wasRead || r.stale; // a script may have changed its strengths
 	const bool swap    = r.first > r.second;

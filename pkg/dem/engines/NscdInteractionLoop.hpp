@@ -49,10 +49,10 @@ private:
 	void visitOthers(nscd::Resident& resident, const std::vector<int>& others, const Ours& ours, int threads);
 	bool visit(const shared_ptr<Interaction>& interaction);
 	bool
-	     visit(const shared_ptr<Interaction>& interaction, const std::vector<nscd::BodyReading>& bodies,
+	     visit(const shared_ptr<Interaction>& interaction, const std::vector<nscd::BodyState>& bodies,
 	           std::string& error);
-	bool areOutOfReach(const Interaction& interaction, const std::vector<nscd::BodyReading>& bodies) const;
-	bool isOfSpheres(const Interaction& interaction, const std::vector<nscd::BodyReading>& bodies) const;
+	bool areOutOfReach(const Interaction& interaction, const std::vector<nscd::BodyState>& bodies) const;
+	bool isOfSpheres(const Interaction& interaction, const std::vector<nscd::BodyState>& bodies) const;
 	void visitInSpace(const nscd::Resident& resident, int threads);
 
 	void keepFunctors();

@@ -17,7 +17,7 @@
 namespace yade {
 
 namespace {
-	using nscd::fetch, nscd::soon, nscd::later, nscd::Reading;
+	using nscd::fetch, nscd::soon, nscd::later, nscd::ContactState;
 
 	/// Makes what soft laws need of a contact of disks zero, so that a contact is the same whether it was made just
 	/// now, some steps ago, or loaded.
@@ -35,7 +35,7 @@ namespace {
 
 	/// Geometry of two spheres in the order of operations of Ig2_Sphere_Sphere_ScGeom, without what soft laws need;
 	/// its axes are none since the contact went through its functors (forgetShear).
-	void setGeometry(ScGeom& geom, const nscd::BodyReading& first, const nscd::BodyReading& second)
+	void setGeometry(ScGeom& geom, const nscd::BodyState& first, const nscd::BodyState& second)
 	{
 		const Vector3r from = first.place(), way = second.place() - from;
 		const Real     distance = way.norm();
@@ -78,7 +78,7 @@ namespace {
 		      "Ip2_NscdMat_NscdMat_NscdPhys() and Law2_ScGeom_NscdPhys_SignoriniCoulomb()");
 	}
 
-	/// What functors will look at of a contact. Noted before the loop: in it other threads write readings.
+	/// What functors will look at of a contact. Noted before the loop: in it other threads write states.
 	struct Ahead {
 		const void *interaction, *geom, *phys;
 		int         low, high;
@@ -106,7 +106,7 @@ namespace {
 	}
 
 	/// Whether both bodies of an interaction are there and spheres, not of a derived class.
-	bool arePlain(const Interaction& i, const std::vector<nscd::BodyReading>& bodies)
+	bool arePlain(const Interaction& i, const std::vector<nscd::BodyState>& bodies)
 	{
 		const auto isPlain = [&](int id) {
 			return id >= 0 && id < (int)bodies.size() && bodies[id].present && bodies[id].plain;
@@ -116,7 +116,7 @@ namespace {
 }
 
 /// Whether a contact is one of two spheres whose functors do what is known, so that they need not be called.
-bool NscdInteractionLoop::isOfSpheres(const Interaction& i, const std::vector<nscd::BodyReading>& bodies) const
+bool NscdInteractionLoop::isOfSpheres(const Interaction& i, const std::vector<nscd::BodyState>& bodies) const
 {
 	const auto& cache = i.functorCache;
 	return ours.spheres && ours.law && i.isReal() && cache.geom.get() == ours.spheres
@@ -158,7 +158,7 @@ bool NscdInteractionLoop::visit(const shared_ptr<Interaction>& I)
 
 /// The same for a loop of threads, out of which no exception may come: its message goes to `error`, and the answer is no.
 bool NscdInteractionLoop::visit(
-        const shared_ptr<Interaction>& I, const std::vector<nscd::BodyReading>& bodies, std::string& error)
+        const shared_ptr<Interaction>& I, const std::vector<nscd::BodyState>& bodies, std::string& error)
 {
 	try {
 		if (isOfSpheres(*I, bodies)) {
@@ -176,7 +176,7 @@ bool NscdInteractionLoop::visit(
 }
 
 /// Two spheres that are farther apart than their functor looks; what is so need not be shown to it.
-bool NscdInteractionLoop::areOutOfReach(const Interaction& i, const std::vector<nscd::BodyReading>& bodies) const
+bool NscdInteractionLoop::areOutOfReach(const Interaction& i, const std::vector<nscd::BodyState>& bodies) const
 {
 	return ours.spheres && i.functorCache.geom.get() == ours.spheres && arePlain(i, bodies)
 	        && nscd::areBeyond(ours.spheres->interactionDetectionFactor, bodies[i.getId1()], bodies[i.getId2()]);
@@ -231,9 +231,9 @@ void NscdInteractionLoop::visitOthers(
 	ahead.reserve(others.size());
 	for (size_t k = 0; k < others.size(); ++k) {
 		if (k + soon < others.size())
-			fetch<sizeof(Reading)>(&resident.readings[resident.order[others[k + soon]].slot]);
-		const auto&    place = resident.order[others[k]];
-		const Reading& r     = resident.readings[place.slot];
+			fetch<sizeof(ContactState)>(&resident.states[resident.order[others[k + soon]].slot]);
+		const auto&         place = resident.order[others[k]];
+		const ContactState& r     = resident.states[place.slot];
 		look(place);
 		ahead.push_back({ r.interaction, r.geom, r.phys, place.low, place.high });
 	}
@@ -251,7 +251,7 @@ void NscdInteractionLoop::visitOthers(
 			fetchBodies(ahead[k + soon / 2], *scene);
 		}
 		const int                      slot  = k < known ? resident.order[others[k]].slot : -1;
-		const shared_ptr<Interaction>& I     = k < known ? list[resident.readings[slot].interaction->linIx]
+		const shared_ptr<Interaction>& I     = k < known ? list[resident.states[slot].interaction->linIx]
 		                                                 : resident.potential[near[k - known]].interaction;
 		const bool                     stays = visit(I, bodies, error);
 		if (k >= known) {

@@ -11,7 +11,7 @@
 namespace yade {
 
 namespace {
-	using nscd::fetch, nscd::soon, nscd::Reading;
+	using nscd::fetch, nscd::soon, nscd::ContactState;
 	namespace plane = nonsmooth::contact::plane;
 }
 
@@ -26,7 +26,7 @@ void NscdInteractionLoop::takeProposed(nscd::Resident& resident, const Ours& our
 	const bool                    able  = ours.spheres && ours.law && prepare(resident, proposed.front(), ours);
 	const long                    count = (long)proposed.size(), looked = able ? count : 0;
 	std::vector<Taken>            taken(count, Taken::ByFunctors);
-	std::vector<Reading>          readings(looked);
+	std::vector<ContactState>     states(looked);
 	std::vector<plane::Strengths> strengths(looked);
 	const auto&                   bodies = resident.bodies;
 #pragma omp parallel for schedule(static) num_threads(threads)
@@ -49,29 +49,29 @@ void NscdInteractionLoop::takeProposed(nscd::Resident& resident, const Ours& our
 			taken[k] = Taken::No;
 			continue;
 		}
-		Reading& r    = readings[k];
-		r.first       = pair.low;
-		r.second      = pair.high;
-		r.nx          = at.nx;
-		r.ny          = at.ny;
-		r.gap         = at.gap;
-		r.length      = length;
-		r.keeper      = Reading::Arrays;
-		r.cohesive    = true;
-		r.restitution = agreed->restitution;
-		r.bounces     = r.restitution > 0;
-		r.wasRead     = false;
-		r.born        = pair.born;
-		strengths[k]  = *agreed;
+		ContactState& r = states[k];
+		r.first         = pair.low;
+		r.second        = pair.high;
+		r.nx            = at.nx;
+		r.ny            = at.ny;
+		r.gap           = at.gap;
+		r.length        = length;
+		r.keeper        = ContactState::Arrays;
+		r.cohesive      = true;
+		r.restitution   = agreed->restitution;
+		r.bounces       = r.restitution > 0;
+		r.wasRead       = false;
+		r.born          = pair.born;
+		strengths[k]    = *agreed;
 		nscd::findThresholds(r, *agreed, ours.law->adhesionRange);
 		if (r.usable) taken[k] = Taken::Bare;
 	}
 	std::vector<nscd::Resident::Pair> left;
 	for (long k = 0; k < count; ++k) {
 		if (taken[k] == Taken::Bare) {
-			readings[k].number = resident.numberOf(strengths[k]);
-			if (readings[k].number >= 0) {
-				resident.add(readings[k]);
+			states[k].number = resident.numberOf(strengths[k]);
+			if (states[k].number >= 0) {
+				resident.add(states[k]);
 				continue;
 			}
 		}

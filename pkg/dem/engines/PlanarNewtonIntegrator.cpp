@@ -66,7 +66,7 @@ void PlanarNewtonIntegrator::action()
 	        = 0; // 2 where a body has left its bounding box's margin, 0.5 where it has not: what the collider asks for
 #pragma omp parallel for schedule(static) num_threads(threads) reduction(max : bad, moved)
 	for (long id = 0; id < count; ++id) {
-		nscd::BodyReading& b = bodies[id];
+		nscd::BodyState& b = bodies[id];
 		if (!b.present) continue;
 		if (b.clumped || b.aspherical) {
 			bad = std::max(bad, (int)id);

@@ -26,15 +26,15 @@ namespace {
 }
 
 /// Sets bodies, directions and levers: from the lower id to the higher, from a wall to a sphere.
-[[gnu::always_inline]] inline void ContactSeam::setFrame(const Reading& reading, Contact& c) const
+[[gnu::always_inline]] inline void ContactSeam::setFrame(const ContactState& state, Contact& c) const
 {
-	const int  id1 = reading.first, id2 = reading.second;
+	const int  id1 = state.first, id2 = state.second;
 	const Real r1 = radius[id1], r2 = radius[id2]; // negative: not a sphere
 	const bool s1 = r1 > 0, s2 = r2 > 0, swapped = s1 && s2 ? id1 > id2 : s1 && !s2;
-	const Real nx = swapped ? -reading.nx : reading.nx, ny = swapped ? -reading.ny : reading.ny;
+	const Real nx = swapped ? -state.nx : state.nx, ny = swapped ? -state.ny : state.ny;
 	const int  i = swapped ? id2 : id1, j = swapped ? id1 : id2;
 	if (s1 && s2) {
-		contact::plane::setDiskFrame(c, i, j, nx, ny, radius[i], radius[j], reading.gap);
+		contact::plane::setDiskFrame(c, i, j, nx, ny, radius[i], radius[j], state.gap);
 		return;
 	}
 	c.i              = i;
@@ -42,8 +42,8 @@ namespace {
 	c.nx             = nx;
 	c.ny             = ny;
 	const auto lever = [&](int id) {
-		return contact::Point { reading.geom->contactPoint[0] - problem.positions[id].x,
-			                reading.geom->contactPoint[1] - problem.positions[id].y };
+		return contact::Point { state.geom->contactPoint[0] - problem.positions[id].x,
+			                state.geom->contactPoint[1] - problem.positions[id].y };
 	};
 	const auto ri = lever(i), rj = lever(j);
 	c.leverNi = ny * ri.x - nx * ri.y;
@@ -55,20 +55,20 @@ namespace {
 
 /// How far a bent wall, or the line that a disk's centre follows on it, turns away from its tangent along the path of
 /// the step [m]; see Arc.
-Real ContactSeam::bendOf(const Reading& reading, const Contact& c) const
+Real ContactSeam::bendOf(const ContactState& state, const Contact& c) const
 {
-	const Real curvature = static_cast<const SegmentGeom&>(*reading.geom).curvature;
+	const Real curvature = static_cast<const SegmentGeom&>(*state.geom).curvature;
 	Real       path      = relaxation.step * contact::passingSpeed(c, before[c.i], before[c.j]);
 	// what a bond carries round with its wall is turned as one with it, see plane/rigid_clusters.hpp
-	if (reading.bonded && curvature != 0) path += relaxation.step * before[c.i].w / curvature;
+	if (state.bonded && curvature != 0) path += relaxation.step * before[c.i].w / curvature;
 	const Real turn = path * curvature;
 	return path * turn / (1 + std::sqrt(std::max(Real(0), 1 - turn * turn)));
 }
 
 /// Of a bent wall the step's path is a chord.
-void ContactSeam::bend(const Reading& reading, Contact& c) const
+void ContactSeam::bend(const ContactState& state, Contact& c) const
 {
-	const Real bias = bendOf(reading, c) / relaxation.step;
+	const Real bias = bendOf(state, c) / relaxation.step;
 	c.biasN         = c.biasN < 0 ? std::min(c.biasN, -bias) : c.biasN - bias;
 }
 
@@ -76,31 +76,31 @@ void ContactSeam::bend(const Reading& reading, Contact& c) const
 /// of its parts. Returns the impulses of the step before.
 [[gnu::always_inline]] inline Impulse ContactSeam::gatherContact(int slot, Contact& c, Link& link) const
 {
-	const Reading& reading = resident->readings[slot];
-	const Real     gap = reading.gap, h = relaxation.step;
-	setFrame(reading, c);
-	link    = { slot, -1, reading.correction };
-	c.biasN = !reading.bonded && gap > 0 ? gap / h : 0;
+	const ContactState& state = resident->states[slot];
+	const Real          gap = state.gap, h = relaxation.step;
+	setFrame(state, c);
+	link    = { slot, -1, state.correction };
+	c.biasN = !state.bonded && gap > 0 ? gap / h : 0;
 	c.biasT = c.biasR = 0;
-	c.adhesion        = h * reading.adhesion;
-	c.friction        = reading.friction;
-	c.rollingArm      = reading.rollingArm;
-	c.length          = reading.length;
+	c.adhesion        = h * state.adhesion;
+	c.friction        = state.friction;
+	c.rollingArm      = state.rollingArm;
+	c.length          = state.length;
 	c.play            = 0;
-	if (reading.bonded && reading.closes) contact::plane::setPlay(c, reading.restGap, gap, h);
-	if (reading.bounces && !reading.bonded) {
+	if (state.bonded && state.closes) contact::plane::setPlay(c, state.restGap, gap, h);
+	if (state.bounces && !state.bonded) {
 		// an impact within the step counts at its full speed; one that does not happen yet is left alone
 		const Real approach = contact::relativeVelocity(c, before[c.i], before[c.j]).n;
 		if (approach < 0 && gap + h * approach <= 0) {
 			// disks that pass each other come no nearer than their paths do
 			const Real end = radius[c.i] > 0 && radius[c.j] > 0 && gap > 0 ? gapAtEnd(c, {}, {})
 			                                                               : gap + h * approach;
-			c.biasN        = end > 0 ? end / h - approach : reading.restitution * approach;
+			c.biasN        = end > 0 ? end / h - approach : state.restitution * approach;
 #pragma omp atomic write
 			meets = 1;
 		}
 	}
-	if (reading.curved) bend(reading, c);
+	if (state.curved) bend(state, c);
 	if (problem.inverseMass[c.i].isFixed() && problem.inverseMass[c.j].isFixed()) {
 		const auto u = contact::relativeVelocity(c, before[c.i], before[c.j]);
 		if (u.n != 0 || u.t != 0 || u.r != 0) {
@@ -109,7 +109,7 @@ void ContactSeam::bend(const Reading& reading, Contact& c) const
 		}
 		return {}; // no reaction is found, so none may stay
 	}
-	return { h * reading.normal, h * reading.tangential, h * reading.torque };
+	return { h * state.normal, h * state.tangential, h * state.torque };
 }
 
 void ContactSeam::gather(Scene& scene, Resident& from, const Vector3r& gravity, const Relaxation& how, int threadCount)
@@ -148,7 +148,7 @@ void ContactSeam::gather(Scene& scene, Resident& from, const Vector3r& gravity, 
 		joints[part].clear();
 		for (size_t k = begin; k < std::min(begin + sumChunk, count); ++k) {
 			const int slot = order[k].slot;
-			if (k + later < count) fetch<commonOfReading>(&resident->readings[order[k + later].slot]);
+			if (k + later < count) fetch<commonOfState>(&resident->states[order[k + later].slot]);
 			if (partOf[k] == Solved) {
 				if (in + later < solved) {
 					fetch<sizeof(Contact)>(&problem.contacts[in + later]);
@@ -157,7 +157,7 @@ void ContactSeam::gather(Scene& scene, Resident& from, const Vector3r& gravity, 
 				}
 				problem.impulses[in] = warmStart[in] = gatherContact(
 				        slot, problem.contacts[in], links[in]);
-				if (Reading& r = resident->readings[slot]; r.joins) {
+				if (ContactState& r = resident->states[slot]; r.joins) {
 					joints[part].push_back(in);
 					setJoins(r, false);
 				}
@@ -175,11 +175,11 @@ void ContactSeam::gather(Scene& scene, Resident& from, const Vector3r& gravity, 
 /// A contact that is left out of the solve bears nothing.
 void ContactSeam::forgetReactions(int slot)
 {
-	Reading& r = resident->readings[slot];
+	ContactState& r = resident->states[slot];
 	r.leftOut = r.reacts = true;
 	if (r.normal == 0) return;
 	r.normal = r.tangential = r.torque = r.correction = 0;
-	if (r.keeper != Reading::Arrays) writeReactions(r);
+	if (r.keeper != ContactState::Arrays) writeReactions(r);
 }
 
 void ContactSeam::gatherBodies(Scene& scene, const Vector3r& gravity)
@@ -191,15 +191,16 @@ void ContactSeam::gatherBodies(Scene& scene, const Vector3r& gravity)
 	scene.forces.addMaxId(Body::id_t(size));
 	scene.forces.synced = false;
 	scene.forces.sync();
-	for (auto* v : { &problem.freeVelocity, &before, &external })
+	for (auto* v : { &problem.freeVelocity, &before })
 		v->resize(size);
+	external.resize(size);
 	for (auto* v : { &radius, &mass, &inertia })
 		v->resize(size);
 	problem.inverseMass.resize(size);
 	problem.positions.resize(size);
 	present.resize(size);
 	const Real h     = relaxation.step;
-	const auto first = std::find_if(read.begin(), read.end(), [](const BodyReading& b) {
+	const auto first = std::find_if(read.begin(), read.end(), [](const BodyState& b) {
 		return b.present && b.radius > 0;
 	});
 	const Real plane = first == read.end() ? 0 : first->z; // in which all disks lie
@@ -207,14 +208,15 @@ void ContactSeam::gatherBodies(Scene& scene, const Vector3r& gravity)
 	bool       odd   = false; // some motion is not in the plane
 #pragma omp parallel for schedule(static) num_threads(threads) reduction(max : bad) reduction(|| : odd)
 	for (long id = 0; id < size; ++id) {
-		const BodyReading& s = read[id];
-		auto&              w = problem.inverseMass[id];
-		w                    = {};
-		present[id]          = s.present;
-		radius[id]           = s.radius;
+		const BodyState& s = read[id];
+		auto&            w = problem.inverseMass[id];
+		w                  = {};
+		present[id]        = s.present;
+		radius[id]         = s.radius;
 		if (!s.present) {
-			problem.freeVelocity[id] = before[id] = external[id] = {};
-			problem.positions[id]                                = {};
+			problem.freeVelocity[id] = before[id] = {};
+			external[id]                          = {};
+			problem.positions[id]                 = {};
 			mass[id] = inertia[id] = 0;
 			continue;
 		}
@@ -323,15 +325,15 @@ void ContactSeam::divide(const Scene& scene)
 		size_t solved = 0, left = 0;
 		for (size_t k = part * sumChunk; k < std::min((part + 1) * sumChunk, count); ++k) {
 			if (k + later < count && !resident->surelySolved[order[k + later].slot])
-				fetch<1>(&resident->readings[order[k + later].slot]);
+				fetch<1>(&resident->states[order[k + later].slot]);
 			partOf[k] = None;
 			if (resident->surelySolved[order[k].slot]) partOf[k] = Solved;
 			else {
-				const Reading& reading = resident->readings[order[k].slot];
-				if (!reading.active || !present[reading.first] || !present[reading.second]) continue;
-				if (!reading.usable) bad = std::min(bad, (long)k);
-				if (!reading.cohesive) continue;
-				partOf[k] = mustBeSolved(reading) ? Solved : Left;
+				const ContactState& state = resident->states[order[k].slot];
+				if (!state.active || !present[state.first] || !present[state.second]) continue;
+				if (!state.usable) bad = std::min(bad, (long)k);
+				if (!state.cohesive) continue;
+				partOf[k] = mustBeSolved(state) ? Solved : Left;
 			}
 			++(partOf[k] == Solved ? solved : left);
 		}
@@ -340,7 +342,7 @@ void ContactSeam::divide(const Scene& scene)
 	}
 	if (bad < (long)count) {
 		resident->show();
-		refuseContact(scene, resident->readings[order[bad].slot]);
+		refuseContact(scene, resident->states[order[bad].slot]);
 	}
 	for (size_t part = 1; part < solvedBefore.size(); ++part) {
 		solvedBefore[part] += solvedBefore[part - 1];
@@ -349,14 +351,14 @@ void ContactSeam::divide(const Scene& scene)
 }
 
 /// A contact is left out where it is open and will not close in the step.
-bool ContactSeam::mustBeSolved(const Reading& reading) const
+bool ContactSeam::mustBeSolved(const ContactState& state) const
 {
-	const Real widest = relaxation.openGap * reading.length;
-	if (reading.bonded || reading.broken != NscdPhys::None || reading.gap <= widest) return true;
+	const Real widest = relaxation.openGap * state.length;
+	if (state.bonded || state.broken != NscdPhys::None || state.gap <= widest) return true;
 	Contact c;
-	setFrame(reading, c);
+	setFrame(state, c);
 	const Real speed = contact::relativeVelocity(c, problem.freeVelocity[c.i], problem.freeVelocity[c.j]).n;
-	return !staysOpen(reading.gap, speed, relaxation.step, widest);
+	return !staysOpen(state.gap, speed, relaxation.step, widest);
 }
 
 } // namespace yade::nscd

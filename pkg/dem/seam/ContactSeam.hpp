@@ -26,7 +26,7 @@ struct Relaxation {
 	Real openGap; // a gap wider than this [ℓ] that will not close in the step is left out
 };
 
-/// A gathered contact's place in Resident::readings.
+/// A gathered contact's place in Resident::states.
 struct Link {
 	int  slot       = -1;
 	int  impacts    = -1; // its place in the sequence of impacts, where the step has one
@@ -116,7 +116,7 @@ public:
 	int turningOut = -1; // of the last step: a body that turns about x or y, which no contact follows
 	std::vector<size_t> broken; // places of the contacts whose bonds broke in the step
 	GivenMotion         givenMotion; // of bodies that others move by their positions
-	const Reading&      readingOf(const Link& link) const { return resident->readings[link.slot]; }
+	const ContactState& stateOf(const Link& link) const { return resident->states[link.slot]; }
 	/// Pairs that overlapped by that much and more [ℓ] when the step began.
 	int overlapsOf(Real least) const;
 
@@ -127,32 +127,32 @@ private:
 	void                        gatherBodies(Scene& scene, const Vector3r& gravity);
 	void                        takeGivenMotion(const Scene& scene);
 	void                        divide(const Scene& scene);
-	bool                        mustBeSolved(const Reading& reading) const;
-	void                        bend(const Reading& reading, nonsmooth::contact::Contact& contact) const;
-	Real                        bendOf(const Reading& reading, const nonsmooth::contact::Contact& contact) const;
-	void                        setFrame(const Reading& reading, nonsmooth::contact::Contact& result) const;
+	bool                        mustBeSolved(const ContactState& state) const;
+	void                        bend(const ContactState& state, nonsmooth::contact::Contact& contact) const;
+	Real                        bendOf(const ContactState& state, const nonsmooth::contact::Contact& contact) const;
+	void                        setFrame(const ContactState& state, nonsmooth::contact::Contact& result) const;
 	nonsmooth::contact::Impulse gatherContact(int slot, nonsmooth::contact::Contact& result, Link& link) const;
 	void                        forgetReactions(int slot);
 	void                        takeIn(const std::vector<size_t>& taken);
 	void                        expectImpacts(std::vector<nonsmooth::contact::ImpactPair>& pairs);
 	void                        setBiasAfterImpacts(nonsmooth::contact::Contact& c, const Link& link) const;
-	Real                        gapAfterImpacts(const nonsmooth::contact::Contact& c, const Reading& reading) const;
+	Real gapAfterImpacts(const nonsmooth::contact::Contact& c, const ContactState& state) const;
 	/// Gap of two disks that are displaced and fly all the step with the velocities `before`.
 	Real gapAtEnd(
 	        const nonsmooth::contact::Contact& c, const nonsmooth::contact::Twist& shiftI,
 	        const nonsmooth::contact::Twist& shiftJ) const;
 	/// The same as a gap at the step's beginning, of two that pass each other (gatherContact); else that gap.
-	Real gapInPassing(const nonsmooth::contact::Contact& c, const Reading& reading) const
+	Real gapInPassing(const nonsmooth::contact::Contact& c, const ContactState& state) const
 	{
-		const bool passes = !reading.bonded && reading.gap > 0 && c.biasN > reading.gap / relaxation.step;
-		return passes ? c.biasN * relaxation.step : reading.gap;
+		const bool passes = !state.bonded && state.gap > 0 && c.biasN > state.gap / relaxation.step;
+		return passes ? c.biasN * relaxation.step : state.gap;
 	}
 	/// Gap that a contact would have at the step's beginning for bodies that fly all the step with the velocities
 	/// that impacts leave.
-	Real gapOf(const nonsmooth::contact::Contact& c, const Reading& reading) const
+	Real gapOf(const nonsmooth::contact::Contact& c, const ContactState& state) const
 	{
-		if (followed) return gapAfterImpacts(c, reading);
-		return reading.bounces ? gapInPassing(c, reading) : reading.gap;
+		if (followed) return gapAfterImpacts(c, state);
+		return state.bounces ? gapInPassing(c, state) : state.gap;
 	}
 	/// What impacts did at a contact before the solve; null where none did.
 	const nonsmooth::contact::PairImpacts* impactsAt(const Link& link) const
@@ -162,21 +162,22 @@ private:
 	nonsmooth::contact::Impulse impulseOfStep(size_t k) const;
 	Sliding                     slidingOf(size_t contact, long number) const;
 	void scatterContacts(size_t begin, size_t end, bool rates, StepSums& result, char& slips);
-	bool scatterContact(size_t k, const nonsmooth::contact::Impulse& u, Reading& reading) const;
+	bool scatterContact(size_t k, const nonsmooth::contact::RelativeVelocity& u, ContactState& state) const;
 	void sumReactions();
 	void scatterForces(Scene& scene, size_t begin, size_t end);
 	void
 	refuseCrossings(const Scene& scene, const std::vector<int>& far, const nonsmooth::contact::Point& middle) const;
-	void                              loadClusters();
-	void                              findClusters();
-	void                              turnClusters();
-	bool                              turnsFar(const nonsmooth::contact::Contact& contact) const;
-	bool                              sticks(size_t k, const nonsmooth::contact::Impulse& u) const;
-	nonsmooth::contact::PositionError errorOf(size_t k, const nonsmooth::contact::Impulse& u, bool turns) const;
-	nonsmooth::contact::Impulse       givenVelocity(const nonsmooth::contact::Contact& c) const;
-	void                              turnBack();
-	void                              turnBack(size_t k);
-	void                              displace(size_t begin, size_t end);
+	void loadClusters();
+	void findClusters();
+	void turnClusters();
+	bool turnsFar(const nonsmooth::contact::Contact& contact) const;
+	bool sticks(size_t k, const nonsmooth::contact::RelativeVelocity& u) const;
+	nonsmooth::contact::PositionError
+	errorOf(size_t k, const nonsmooth::contact::RelativeVelocity& u, bool turns) const;
+	nonsmooth::contact::RelativeVelocity givenVelocity(const nonsmooth::contact::Contact& c) const;
+	void                                 turnBack();
+	void                                 turnBack(size_t k);
+	void                                 displace(size_t begin, size_t end);
 	/// Whether a body was turned with a cluster in this step.
 	bool turnsAsOne(size_t id) const { return !turned.empty() && isTurned[id]; }
 	/// How far a body is moved for errors of position, and because it turns with a cluster.
@@ -200,11 +201,12 @@ private:
 	{
 		return { problem.positions.data(), problem.inverseMass.data(), mass.data() };
 	}
-	void
-	rateContact(size_t k, const nonsmooth::contact::Impulse& u, const Reading& reading, ContactSums& sums) const;
-	Real overlapOf(size_t k, const Reading& reading) const;
+	void rateContact(
+	        size_t k, const nonsmooth::contact::RelativeVelocity& u, const ContactState& state,
+	        ContactSums& sums) const;
+	Real overlapOf(size_t k, const ContactState& state) const;
 	Real sumContact(
-	        size_t k, const nonsmooth::contact::Impulse& u1, const Reading& reading, bool held,
+	        size_t k, const nonsmooth::contact::RelativeVelocity& u1, const ContactState& state, bool held,
 	        ContactSums& sums) const;
 	void sumImpacts(size_t id, const Vector3r& gravity, StepSums& sums) const;
 	void sumBodies(const Vector3r& gravity, size_t begin, size_t end, StepSums& sums) const;
@@ -215,7 +217,7 @@ private:
 	int                                      threads = 1;
 	int                                      recalls = 0; // of this step
 	std::vector<SlipSurfaceMat*>             surfaces; // walls with cells
-	long                                     materialsOf = -1; // reading of bodies whose materials were looked at
+	long                                     materialsOf = -1; // state of bodies whose materials were looked at
 	std::vector<nonsmooth::contact::Twist>
 	        before; // velocities at the beginning of the step, after the impacts that were followed
 	std::vector<nonsmooth::contact::Twist>         begun; // before these; of a step with any
@@ -223,12 +225,12 @@ private:
 	mutable char                                   meets    = 0; // contacts with restitution close in this step
 	mutable char                                   slides   = 0; // and contacts of two given bodies move
 	bool                                           followed = false; // impacts were, in this step
-	std::vector<nonsmooth::contact::Twist>         external; // force and torque of other engines [N, N m]
-	std::vector<nonsmooth::contact::Twist>         force; // the same with the contacts', at the end of the step
-	std::vector<nonsmooth::contact::Twist>         reaction; // sum of contact impulses on each body
+	std::vector<nonsmooth::contact::Wrench>        external; // force and torque of other engines [N, N m]
+	std::vector<nonsmooth::contact::Wrench>        force; // the same with the contacts', at the end of the step
+	std::vector<nonsmooth::contact::Wrench>        reaction; // sum of contact impulses on each body
 	std::vector<nonsmooth::contact::PositionError> errors; // of contacts
 	nonsmooth::contact::PositionCorrection         correction; // none where there are no displacements
-	std::vector<nonsmooth::contact::Twist>
+	std::vector<nonsmooth::contact::Wrench>
 	        turning; // of bodies: impulses that turn clusters and keep the angular momentum, see turnBack [N s]
 	nonsmooth::contact::plane::RigidClusters clusters;
 	// of bodies, nothing but of those that are loaded and turned: what the centrifugal force gave [m/s]; after the

@@ -14,6 +14,7 @@ namespace contact = nonsmooth::contact;
 namespace plane   = contact::plane;
 using contact::Contact;
 using contact::Impulse;
+using contact::RelativeVelocity;
 using contact::Twist;
 
 namespace {
@@ -84,7 +85,7 @@ void ContactSeam::turnClusters()
 		if (isTurned[*clusters.first(s)]) turned.insert(turned.end(), clusters.first(s), clusters.last(s));
 	for (const auto& part : joints)
 		for (const size_t k : part)
-			if (isTurned[problem.contacts[k].i]) setJoins(resident->readings[links[k].slot], true);
+			if (isTurned[problem.contacts[k].i]) setJoins(resident->states[links[k].slot], true);
 }
 
 /// Whether the frame of a contact turns by so much in the step that its bodies, where a bond holds them, are turned as
@@ -102,7 +103,7 @@ void ContactSeam::turnClusters()
 }
 
 /// Whether a bond holds along the normal and does not slide.
-[[gnu::always_inline]] inline bool ContactSeam::sticks(size_t k, const Impulse& u) const
+[[gnu::always_inline]] inline bool ContactSeam::sticks(size_t k, const RelativeVelocity& u) const
 {
 	const Contact& c = problem.contacts[k];
 	const Impulse& p = problem.impulses[k];
@@ -115,12 +116,13 @@ void ContactSeam::turnClusters()
 
 /// What a contact asks of the positions at the end of the step; `u`: its velocities then, `turns`: its bond is one of
 /// bodies that turn as one.
-[[gnu::always_inline]] inline contact::PositionError ContactSeam::errorOf(size_t k, const Impulse& u, bool turns) const
+[[gnu::always_inline]] inline contact::PositionError
+ContactSeam::errorOf(size_t k, const RelativeVelocity& u, bool turns) const
 {
 	const Real             h = relaxation.step, most = h * relaxation.largestSpeed;
 	const Contact&         c = problem.contacts[k];
 	const Impulse&         p = problem.impulses[k];
-	const Reading&         r = readingOf(links[k]);
+	const ContactState&    r = stateOf(links[k]);
 	contact::PositionError e;
 	e.impulse = links[k].correction;
 	// a bond that opens keeps its new length
@@ -170,11 +172,11 @@ void ContactSeam::correct(const contact::SolverSettings& settings, contact::Work
 	for (long part = 0; part < (long)chunksOf(count); ++part) {
 		joints[part].clear();
 		for (size_t k = part * sumChunk; k < std::min((part + 1) * sumChunk, count); ++k) {
-			if (k + later < count) fetch<1>(&readingOf(links[k + later]));
-			const Contact& c = problem.contacts[k];
-			const Impulse  u = contact::relativeVelocity(
-			         c, problem.velocities[c.i], problem.velocities[c.j]);
-			const bool turns = readingOf(links[k]).bonded && turnsFar(c) && sticks(k, u);
+			if (k + later < count) fetch<1>(&stateOf(links[k + later]));
+			const Contact&         c = problem.contacts[k];
+			const RelativeVelocity u = contact::relativeVelocity(
+			        c, problem.velocities[c.i], problem.velocities[c.j]);
+			const bool turns = stateOf(links[k]).bonded && turnsFar(c) && sticks(k, u);
 			if (turns) joints[part].push_back(k);
 			if (!corrects) continue;
 			const auto& e = errors[k] = errorOf(k, u, turns);

@@ -22,10 +22,10 @@ void ContactSeam::expectImpacts(std::vector<contact::ImpactPair>& pairs)
 	for (size_t in = 0, left = 0; in < links.size() || left < leftLinks.size();) {
 		const bool isIn = left == leftLinks.size()
 		        || (in < links.size() && key(problem.contacts[in]) < key(leftContacts[left]));
-		const Contact& c    = isIn ? problem.contacts[in] : leftContacts[left];
-		Link&          link = isIn ? links[in++] : leftLinks[left++];
-		const Reading& r    = readingOf(link);
-		link.impacts        = (int)pairs.size();
+		const Contact&      c    = isIn ? problem.contacts[in] : leftContacts[left];
+		Link&               link = isIn ? links[in++] : leftLinks[left++];
+		const ContactState& r    = stateOf(link);
+		link.impacts             = (int)pairs.size();
 		// what forces push together, or let fall onto another, is the solve's, which finds all of it at once
 		const bool pushed = isPushed(c.i) || isPushed(c.j);
 		pairs.push_back({ &c, r.gap, r.bounces ? r.restitution : 0, radius[c.i] > 0 && radius[c.j] > 0,
@@ -63,9 +63,9 @@ int ContactSeam::followImpacts(int most)
 /// sequence.
 void ContactSeam::setBiasAfterImpacts(Contact& c, const Link& link) const
 {
-	constexpr Real touch = 1e-9; // ℓ, as in the sequence: what meets just at the step's end is the next one's
-	const Reading& r     = readingOf(link);
-	const bool     plays = c.play > 0; // a bond that closes freely
+	constexpr Real touch  = 1e-9; // ℓ, as in the sequence: what meets just at the step's end is the next one's
+	const ContactState& r = stateOf(link);
+	const bool          plays = c.play > 0; // a bond that closes freely
 	if ((r.bonded && !plays) || !(sequence.flights[c.i].struck || sequence.flights[c.j].struck)) return;
 	const Real gap = gapOf(c, r), h = relaxation.step;
 	if (plays) {
@@ -81,11 +81,11 @@ void ContactSeam::setBiasAfterImpacts(Contact& c, const Link& link) const
 	if (r.curved) bend(r, c);
 }
 
-Real ContactSeam::gapAfterImpacts(const Contact& c, const Reading& reading) const
+Real ContactSeam::gapAfterImpacts(const Contact& c, const ContactState& state) const
 {
 	const auto &i = sequence.flights[c.i], &j = sequence.flights[c.j];
-	if (!i.struck && !j.struck) return reading.bounces ? gapInPassing(c, reading) : reading.gap;
-	if (radius[c.i] < 0 || radius[c.j] < 0) return reading.gap + contact::relativeVelocity(c, i.shift, j.shift).n;
+	if (!i.struck && !j.struck) return state.bounces ? gapInPassing(c, state) : state.gap;
+	if (radius[c.i] < 0 || radius[c.j] < 0) return state.gap + contact::relativeVelocity(c, i.shift, j.shift).n;
 	// exact at the end of the step, though the two have passed each other
 	return gapAtEnd(c, i.shift, j.shift) - relaxation.step * contact::relativeVelocity(c, i.velocity, j.velocity).n;
 }
@@ -117,7 +117,8 @@ void ContactSeam::sumImpacts(size_t id, const Vector3r& gravity, StepSums& sums)
 {
 	const auto&  f = sequence.flights[id];
 	const auto&  w = problem.inverseMass[id];
-	const Twist &v = f.velocity, &p = f.impulse;
+	const Twist& v = f.velocity;
+	const auto&  p = f.impulse;
 	sums.wallWork -= (w.x > 0 ? 0 : p.x * v.x) + (w.y > 0 ? 0 : p.y * v.y) + (w.w > 0 ? 0 : p.w * v.w);
 	if (!f.struck) return;
 	const Real m = mass[id];

@@ -12,7 +12,7 @@ size_t ContactSeam::recall()
 {
 	const auto gapAfter = [this](size_t k) {
 		const Contact& c = leftContacts[k];
-		return gapOf(c, readingOf(leftLinks[k]))
+		return gapOf(c, stateOf(leftLinks[k]))
 		        + relaxation.step
 		        * contact::relativeVelocity(c, problem.velocities[c.i], problem.velocities[c.j]).n;
 	};

@@ -11,7 +11,9 @@ namespace yade::nscd {
 namespace contact = nonsmooth::contact;
 using contact::Contact;
 using contact::Impulse;
+using contact::RelativeVelocity;
 using contact::Twist;
+using contact::Wrench;
 
 void StepSums::add(const StepSums& other)
 {
@@ -51,7 +53,8 @@ void StepSums::add(const StepSums& other)
 
 /// Takes a contact's reactions to where it is kept, and what a bond has yielded; u: its velocities at the end of the
 /// step. Returns whether it is a bond that opened neither in this step nor in the one before.
-[[gnu::always_inline]] inline bool ContactSeam::scatterContact(size_t k, const Impulse& u, Reading& r) const
+[[gnu::always_inline]] inline bool
+ContactSeam::scatterContact(size_t k, const RelativeVelocity& u, ContactState& r) const
 {
 	const Real     h    = relaxation.step;
 	const Contact& c    = problem.contacts[k];
@@ -62,7 +65,7 @@ void StepSums::add(const StepSums& other)
 	r.correction        = correction.displacements.empty() ? 0 : correction.impulses[k];
 	r.reacts            = true;
 	r.leftOut           = false;
-	const bool inArrays = r.keeper == Reading::Arrays;
+	const bool inArrays = r.keeper == ContactState::Arrays;
 	if (!inArrays) writeReactions(r);
 	if (!inArrays || r.broken != NscdPhys::None) r.phys->yielded = r.phys->slid = r.phys->rolled = false;
 	if (r.broken != NscdPhys::None) r.phys->breaks = false; // it is counted now
@@ -85,7 +88,7 @@ void StepSums::add(const StepSums& other)
 /// How fast a contact turns and its bond crosses its ellipse at the end of the step. What divisions and roots give,
 /// which are slow, is found only where it may be the largest.
 [[gnu::always_inline]] inline void
-ContactSeam::rateContact(size_t k, const Impulse& u, const Reading& r, ContactSums& sums) const
+ContactSeam::rateContact(size_t k, const RelativeVelocity& u, const ContactState& r, ContactSums& sums) const
 {
 	constexpr Real nearly = 1 - 1e-9; // more than rounding takes away
 	const Contact& c      = problem.contacts[k];
@@ -96,7 +99,7 @@ ContactSeam::rateContact(size_t k, const Impulse& u, const Reading& r, ContactSu
 	else if (!(dx * dx + dy * dy < nearly * most * most))
 		sums.contactRate = std::max(sums.contactRate, std::sqrt(dx * dx + dy * dy) / c.length);
 	if (!r.bonded) return;
-	const bool  inArrays = r.keeper == Reading::Arrays;
+	const bool  inArrays = r.keeper == ContactState::Arrays;
 	const auto& zone     = resident->bonds[links[k].slot].zone;
 	const Real  along    = inArrays ? zone.normal : r.phys->ellipseNormal,
 	           across    = inArrays ? zone.tangential : r.phys->ellipseTangential;
@@ -105,7 +108,7 @@ ContactSeam::rateContact(size_t k, const Impulse& u, const Reading& r, ContactSu
 }
 
 /// In ℓ. Of two bodies that are held nothing is to be corrected: a floor may be made of disks that overlap.
-[[gnu::always_inline]] inline Real ContactSeam::overlapOf(size_t k, const Reading& r) const
+[[gnu::always_inline]] inline Real ContactSeam::overlapOf(size_t k, const ContactState& r) const
 {
 	const Contact& c      = problem.contacts[k];
 	const bool     placed = problem.inverseMass[c.i].isFixed() && problem.inverseMass[c.j].isFixed() && r.gap < 0;
@@ -116,17 +119,17 @@ int ContactSeam::overlapsOf(Real least) const
 {
 	int count = 0;
 	for (size_t k = 0; k < links.size(); ++k)
-		count += overlapOf(k, readingOf(links[k])) >= least;
+		count += overlapOf(k, stateOf(links[k])) >= least;
 	return count;
 }
 
 /// Returns what it has slid on a wall [J].
 [[gnu::always_inline]] inline Real
-ContactSeam::sumContact(size_t k, const Impulse& u1, const Reading& r, bool held, ContactSums& sums) const
+ContactSeam::sumContact(size_t k, const RelativeVelocity& u1, const ContactState& r, bool held, ContactSums& sums) const
 {
-	const Contact& c  = problem.contacts[k];
-	const Impulse& p  = problem.impulses[k];
-	const Impulse  u0 = contact::relativeVelocity(c, before[c.i], before[c.j]);
+	const Contact&         c  = problem.contacts[k];
+	const Impulse&         p  = problem.impulses[k];
+	const RelativeVelocity u0 = contact::relativeVelocity(c, before[c.i], before[c.j]);
 	// work of the impulse over the step, exact for constant mass: P·(U⁻ + U⁺)/2
 	const Real normalWork = 0.5 * p.n * (u0.n + u1.n);
 	// all, since which one it is cannot be told ahead; tension in a bond that does not open loses nothing
@@ -170,13 +173,14 @@ void ContactSeam::scatterContacts(size_t begin, size_t end, bool rates, StepSums
 	bool anySlips = false;
 	for (size_t k = begin; k < end; ++k) {
 		if (k + later < count) {
-			fetch<commonOfReading>(&readingOf(links[k + later]));
+			fetch<commonOfState>(&stateOf(links[k + later]));
 			if (rates) fetch<1>(&resident->bonds[links[k + later].slot].zone);
 		}
-		const Contact& c    = problem.contacts[k];
-		Reading&       r    = resident->readings[links[k].slot];
-		const Impulse  u    = contact::relativeVelocity(c, problem.velocities[c.i], problem.velocities[c.j]);
-		const bool     held = scatterContact(k, u, r);
+		const Contact&         c = problem.contacts[k];
+		ContactState&          r = resident->states[links[k].slot];
+		const RelativeVelocity u = contact::relativeVelocity(
+		        c, problem.velocities[c.i], problem.velocities[c.j]);
+		const bool held = scatterContact(k, u, r);
 		anySlips |= r.slips;
 		if (const Real slid = sumContact(k, u, r, held, sums); slid != 0)
 			result.slidingOnWalls.emplace_back(radius[c.i] < 0 ? c.i : c.j, slid);
@@ -188,12 +192,12 @@ void ContactSeam::scatterContacts(size_t begin, size_t end, bool rates, StepSums
 
 Sliding ContactSeam::slidingOf(size_t k, long number) const
 {
-	const Contact& c = problem.contacts[k];
-	const Real     h = relaxation.step, pressed = impulseOfStep(k).n;
-	const Impulse  u0      = contact::relativeVelocity(c, before[c.i], before[c.j]);
-	const Impulse  u1      = contact::relativeVelocity(c, problem.velocities[c.i], problem.velocities[c.j]);
-	const auto*    impacts = impactsAt(links[k]);
-	Sliding        s;
+	const Contact&         c = problem.contacts[k];
+	const Real             h = relaxation.step, pressed = impulseOfStep(k).n;
+	const RelativeVelocity u0      = contact::relativeVelocity(c, before[c.i], before[c.j]);
+	const RelativeVelocity u1      = contact::relativeVelocity(c, problem.velocities[c.i], problem.velocities[c.j]);
+	const auto*            impacts = impactsAt(links[k]);
+	Sliding                s;
 	s.number    = number;
 	s.way       = std::abs(h * u1.t);
 	s.speed     = std::abs(u1.t);
@@ -202,7 +206,7 @@ Sliding ContactSeam::slidingOf(size_t k, long number) const
 	s.lost      = (impacts ? impacts->slidingLoss : 0)
 	        - 0.5 * problem.impulses[k].t * (u0.t + u1.t); // as sumContact has it
 	s.bears = pressed + c.adhesion > 0;
-	s.place = readingOf(links[k]).geom->contactPoint;
+	s.place = stateOf(links[k]).geom->contactPoint;
 	return s;
 }
 
@@ -243,7 +247,7 @@ StepSums ContactSeam::scatter(Scene& scene, const Vector3r& gravity, int threadC
 	const long               number = ++allSteps;
 	for (size_t part = 0; part < chunksC; ++part)
 		for (size_t k = part * sumChunk; slip[part] && k < std::min((part + 1) * sumChunk, count); ++k) {
-			const Reading& r = readingOf(links[k]);
+			const ContactState& r = stateOf(links[k]);
 			if (r.slips) r.phys->noteSliding(slidingOf(k, number));
 		}
 	for (auto* surface : surfaces)
@@ -252,7 +256,7 @@ StepSums ContactSeam::scatter(Scene& scene, const Vector3r& gravity, int threadC
 	for (size_t part = 0; part < chunksC; ++part)
 		for (size_t k = part * sumChunk; parts[part].anyBroken() && k < std::min((part + 1) * sumChunk, count);
 		     ++k)
-			if (readingOf(links[k]).broken != NscdPhys::None) broken.push_back(k);
+			if (stateOf(links[k]).broken != NscdPhys::None) broken.push_back(k);
 	givenMotion.leave(scene, *resident, h);
 	StepSums total;
 	for (const StepSums& s : parts)
@@ -268,7 +272,7 @@ void ContactSeam::sumReactions()
 		const Contact& c  = problem.contacts[k];
 		const Impulse& p  = problem.impulses[k];
 		const Real     fx = c.nx * p.n - c.ny * p.t, fy = c.ny * p.n + c.nx * p.t;
-		Twist &        ri = reaction[c.i], &rj = reaction[c.j];
+		Wrench &       ri = reaction[c.i], &rj = reaction[c.j];
 		ri.x -= fx;
 		ri.y -= fy;
 		ri.w -= c.leverNi * p.n + c.leverTi * p.t + p.r;
@@ -284,7 +288,7 @@ void ContactSeam::scatterForces(Scene& scene, size_t begin, size_t end)
 	const Real h = relaxation.step;
 	for (size_t id = begin; id < end; ++id) {
 		force[id] = external[id];
-		Twist r   = reaction[id];
+		Wrench r  = reaction[id];
 		r.x += turning[id].x;
 		r.y += turning[id].y;
 		if (!loaded.empty()) {
@@ -292,15 +296,15 @@ void ContactSeam::scatterForces(Scene& scene, size_t begin, size_t end)
 			r.y += mass[id] * centrifugal[id].y;
 		}
 		if (followed) {
-			const Twist& p = sequence.flights[id].impulse;
-			r              = { r.x + p.x, r.y + p.y, r.w + p.w };
+			const Wrench& p = sequence.flights[id].impulse;
+			r               = { r.x + p.x, r.y + p.y, r.w + p.w };
 		}
 		if (r.x == 0 && r.y == 0 && r.w == 0) continue;
-		const Twist mean { r.x / h, r.y / h, r.w / h };
+		const Wrench mean { r.x / h, r.y / h, r.w / h };
 		scene.forces.addForceUnsynced(id, Vector3r(mean.x, mean.y, 0)); // into the sums, see gatherBodies
 		scene.forces.addTorqueUnsynced(id, Vector3r(0, 0, mean.w));
-		Twist& all = force[id]; // added as there
-		all        = { all.x + mean.x, all.y + mean.y, all.w + mean.w };
+		Wrench& all = force[id]; // added as there
+		all         = { all.x + mean.x, all.y + mean.y, all.w + mean.w };
 	}
 }
 
@@ -308,8 +312,9 @@ void ContactSeam::sumBodies(const Vector3r& gravity, size_t begin, size_t end, S
 {
 	for (size_t id = begin; id < end; ++id) {
 		if (!present[id]) continue;
-		const Twist &v0 = before[id], &v1 = problem.velocities[id], &r = reaction[id], &f = external[id];
-		const auto&  w = problem.inverseMass[id];
+		const Twist & v0 = before[id], &v1 = problem.velocities[id];
+		const Wrench &r = reaction[id], &f = external[id];
+		const auto&   w = problem.inverseMass[id];
 		// where the motion is given, the work that the contacts do on it goes outside; elsewhere other engines'
 		// forces work
 		const Real half = 0.5 * relaxation.step, x = v0.x + v1.x, y = v0.y + v1.y, a = v0.w + v1.w;
@@ -333,19 +338,20 @@ void ContactSeam::sumBodies(const Vector3r& gravity, size_t begin, size_t end, S
 		sums.size += kinetic + std::abs(potential);
 		// as the integrator will have them, with its own operations: nobody has brought anything where the next
 		// step begins with the same bits
-		const Real   h   = relaxation.step;
-		const Twist& all = force[id];
-		const Twist  left { start.x + h * (w.x > 0 ? 0.0 + (all.x / mass[id] + gravity[0]) : 0.0),
+		const Real    h   = relaxation.step;
+		const Wrench& all = force[id];
+		const Twist   left { start.x + h * (w.x > 0 ? 0.0 + (all.x / mass[id] + gravity[0]) : 0.0),
                                    start.y + h * (w.y > 0 ? 0.0 + (all.y / mass[id] + gravity[1]) : 0.0),
                                    start.w + h * (w.w > 0 ? 0.0 + all.w / inertia[id] : 0.0) };
-		const Twist  way = displacementOf(id);
+		const Twist   way = displacementOf(id);
 		sums.kineticLeft += kineticOf(left);
 		sums.potentialLeft -= mass[id]
 		        * gravity.dot(Vector3r(at[0] + way.x + left.x * h, at[1] + way.y + left.y * h, 0));
 		// what errors of position cost: the way of the weight, and what the pairs of impulses give
 		Twist v2 = v1;
 		if (!correction.displacements.empty() || !turned.empty()) {
-			const Twist d = correctionOf(id), &p = turning[id];
+			const Twist   d = correctionOf(id);
+			const Wrench& p = turning[id];
 			v2.x += w.x * p.x;
 			v2.y += w.y * p.y;
 			sums.correction += 0.5 * (p.x * (v1.x + v2.x) + p.y * (v1.y + v2.y))

@@ -10,10 +10,10 @@ namespace plane = nonsmooth::contact::plane;
 
 namespace {
 	/// Diameter of the smallest disk [m]; 0 where there is none.
-	Real smallestDisk(const std::vector<BodyReading>& bodies)
+	Real smallestDisk(const std::vector<BodyState>& bodies)
 	{
 		Real smallest = std::numeric_limits<Real>::max();
-		for (const BodyReading& b : bodies)
+		for (const BodyState& b : bodies)
 			if (b.present && b.radius > 0) smallest = std::min(smallest, 2 * b.radius);
 		return smallest < std::numeric_limits<Real>::max() ? smallest : 0;
 	}
@@ -55,7 +55,7 @@ void GivenMotion::takeMove(
 	series.steps = series.time = 0;
 }
 
-void GivenMotion::followBody(Body& body, const BodyReading& now, Real smallest)
+void GivenMotion::followBody(Body& body, const BodyState& now, Real smallest)
 {
 	const plane::Motion &m = now.motion, &was = body.left;
 	const auto           one = [&](int k, unsigned direction, Real moved, Real size, Real own, Real far, Real jump_,
@@ -108,8 +108,8 @@ const std::vector<GivenMotion::Given>& GivenMotion::take(const Scene& scene, con
 			++at;
 		if (at == bodies.end()) break;
 		if (at->id != id) continue;
-		const BodyReading& now = resident.bodies[id];
-		const auto &       m = now.motion, &was = at->left;
+		const BodyState& now = resident.bodies[id];
+		const auto &     m = now.motion, &was = at->left;
 		if (beside) expectVelocity(*at, m);
 		const bool stands = m.position.x == was.position.x && m.position.y == was.position.y
 		        && m.rotation.z == was.rotation.z && m.rotation.w == was.rotation.w;

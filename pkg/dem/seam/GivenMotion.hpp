@@ -58,7 +58,7 @@ private:
 	};
 	void takeMove(Series& series, Real moved, Real own, bool far, bool jumps, const Body& body, const char* what);
 	void expectVelocity(Body& body, const nonsmooth::contact::plane::Motion& now) const;
-	void followBody(Body& body, const BodyReading& now, Real smallest);
+	void followBody(Body& body, const BodyState& now, Real smallest);
 
 	std::vector<Body>  bodies, before; // in the order of ids; and as they were before the last take
 	bool               taken = false; // and not left yet

@@ -19,8 +19,8 @@ constexpr std::size_t partOfGeometry = 128, partOfPhysics = 256;
 // What of a physics tells whether a script has written into it.
 constexpr std::size_t partWritten = 192;
 
-// Of a Reading: all but what few contacts ask for, those that break, yield, or have an impact.
-constexpr std::size_t commonOfReading = 128;
+// Of a ContactState: all but what few contacts ask for, those that break, yield, or have an impact.
+constexpr std::size_t commonOfState = 128;
 
 constexpr std::size_t soon = 8, later = 32; // items ahead: what an item points to, and the item itself
 

@@ -32,7 +32,7 @@ void Resident::takeBodies(Scene& scene)
 	shaped.clear();
 	driven.clear();
 	for (size_t id = 0; id < bodies.size(); ++id) {
-		const BodyReading& b = bodies[id];
+		const BodyState& b = bodies[id];
 		if (!b.present) continue;
 		if (!(b.radius > 0) && !b.clumped) shaped.push_back(int(id));
 		if (b.blocked & inPlane) driven.push_back(int(id));
@@ -73,7 +73,7 @@ void Resident::takeContacts(Scene& scene)
 			return a.high < b.high;
 		});
 	const long count = (long)order.size();
-	readings.resize(count);
+	states.resize(count);
 	bonds.resize(count);
 	rests.resize(count);
 	surelySolved.resize(count);
@@ -110,8 +110,8 @@ void Resident::takeContacts(Scene& scene)
 
 void Resident::readSlot(const Found& found, int slot)
 {
-	Reading&  r      = readings[slot];
-	const int number = r.number; // of its holder, which stays
+	ContactState& r      = states[slot];
+	const int     number = r.number; // of its holder, which stays
 	read(found, r, bonds[slot], rests[slot]);
 	r.number           = number;
 	surelySolved[slot] = false;
@@ -136,11 +136,11 @@ bool Resident::takeKnown(Scene& scene)
 	bool       other = false;
 #pragma omp parallel for schedule(static) num_threads(threads) reduction(|| : other)
 	for (long k = 0; k < count; ++k) {
-		if (k + (long)later < count) fetch<sizeof(Interaction)>(readings[order[k + later].slot].interaction);
-		if (k + (long)soon < count && readings[order[k + soon].slot].phys)
-			fetch<partWritten>(readings[order[k + soon].slot].phys);
-		const int slot = order[k].slot;
-		Reading&  r    = readings[slot];
+		if (k + (long)later < count) fetch<sizeof(Interaction)>(states[order[k + later].slot].interaction);
+		if (k + (long)soon < count && states[order[k + soon].slot].phys)
+			fetch<partWritten>(states[order[k + soon].slot].phys);
+		const int     slot = order[k].slot;
+		ContactState& r    = states[slot];
 		if (r.bare) { // nobody could change it
 			other              = other || r.isLost();
 			surelySolved[slot] = false;
@@ -150,7 +150,7 @@ bool Resident::takeKnown(Scene& scene)
 		Interaction&  i    = *held.interaction;
 		if (!isThere(held.interaction) || i.geom != held.geom || i.phys != held.phys || i.getId1() != r.first)
 			other = true;
-		else if (r.keeper != Reading::Arrays || r.phys->touched || r.phys->isWritten())
+		else if (r.keeper != ContactState::Arrays || r.phys->touched || r.phys->isWritten())
 			readSlot(look(i), slot);
 		else {
 			r.active = i.isActive;
@@ -169,35 +169,35 @@ void Resident::hold()
 	if (held) return;
 	held      = true;
 	int count = 0;
-	for (Reading& r : readings)
+	for (ContactState& r : states)
 		if (r.interaction) r.number = count++;
 	holders.resize(count);
 #pragma omp parallel for schedule(static) num_threads(threads)
-	for (size_t k = 0; k < readings.size(); ++k)
-		if (Interaction* i = readings[k].interaction)
-			holders[readings[k].number] = { boost::static_pointer_cast<Interaction>(i->shared_from_this()),
-				                        i->geom, i->phys };
+	for (size_t k = 0; k < states.size(); ++k)
+		if (Interaction* i = states[k].interaction)
+			holders[states[k].number] = { boost::static_pointer_cast<Interaction>(i->shared_from_this()),
+				                      i->geom, i->phys };
 }
 
-void Resident::hold(Reading& reading, const shared_ptr<Interaction>& interaction)
+void Resident::hold(ContactState& state, const shared_ptr<Interaction>& interaction)
 {
 	if (freeHolders.empty()) {
 		freeHolders.push_back(int(holders.size()));
 		holders.emplace_back();
 	}
-	reading.number = freeHolders.back();
+	state.number = freeHolders.back();
 	freeHolders.pop_back();
-	holders[reading.number] = { interaction, interaction->geom, interaction->phys };
+	holders[state.number] = { interaction, interaction->geom, interaction->phys };
 }
 
 int Resident::freeSlot()
 {
 	if (freeSlots.empty()) {
-		readings.emplace_back();
+		states.emplace_back();
 		bonds.emplace_back();
 		rests.emplace_back();
 		surelySolved.push_back(false);
-		return int(readings.size()) - 1;
+		return int(states.size()) - 1;
 	}
 	const int slot = freeSlots.back();
 	freeSlots.pop_back();
@@ -214,25 +214,25 @@ void Resident::add(const shared_ptr<Interaction>& interaction)
 {
 	const int slot = freeSlot(), a = interaction->getId1(), b = interaction->getId2();
 	readSlot(look(*interaction), slot);
-	if (held) hold(readings[slot], interaction);
+	if (held) hold(states[slot], interaction);
 	come.push_back({ std::min(a, b), std::max(a, b), slot });
 }
 
-void Resident::add(const Reading& reading)
+void Resident::add(const ContactState& state)
 {
-	const int slot      = freeSlot();
-	readings[slot]      = reading;
-	surelySolved[slot]  = false;
-	readings[slot].bare = true;
+	const int slot     = freeSlot();
+	states[slot]       = state;
+	surelySolved[slot] = false;
+	states[slot].bare  = true;
 	++bare;
 	bareSlots.push_back(slot);
-	come.push_back({ reading.first, reading.second, slot });
+	come.push_back({ state.first, state.second, slot });
 }
 
 bool Resident::isContact(int low, int high) const
 {
 	const auto at = std::lower_bound(order.begin(), order.end(), Place { low, high, 0 }, isBefore<Place>);
-	return at != order.end() && at->low == low && at->high == high && !readings[at->slot].isLost();
+	return at != order.end() && at->low == low && at->high == high && !states[at->slot].isLost();
 }
 
 void Resident::merge(InteractionContainer& list)
@@ -243,7 +243,7 @@ void Resident::merge(InteractionContainer& list)
 	merged.clear();
 	merged.reserve(order.size() + come.size());
 	const auto leave = [&](const Place& place) {
-		Reading& r = readings[place.slot];
+		ContactState& r = states[place.slot];
 		if (r.bare) {
 			proposed.push_back({ place.low, place.high, r.born });
 			--bare;
@@ -258,7 +258,7 @@ void Resident::merge(InteractionContainer& list)
 			holders[r.number].letGo();
 			freeHolders.push_back(r.number);
 		}
-		r = Reading {};
+		r = ContactState {};
 		freeSlots.push_back(place.slot);
 	};
 	auto       at = order.begin(), next = come.begin();
@@ -298,7 +298,7 @@ void Resident::repack()
 			sorted[k] = std::move(items[order[k].slot]);
 		items.swap(sorted);
 	};
-	pack(readings);
+	pack(states);
 	pack(bonds);
 	pack(rests);
 	pack(surelySolved);
@@ -308,7 +308,7 @@ void Resident::repack()
 	strewn = 0;
 	bareSlots.clear();
 	for (long k = 0; bare > 0 && k < count; ++k)
-		if (readings[k].bare) bareSlots.push_back(int(k));
+		if (states[k].bare) bareSlots.push_back(int(k));
 }
 
 void Resident::forgetErased(InteractionContainer& list)

@@ -23,8 +23,8 @@
 #pragma once
 
 #include "PythonMade.hpp"
-#include "BodyReading.hpp"
-#include "ContactReading.hpp"
+#include "BodyState.hpp"
+#include "ContactState.hpp"
 #include <atomic>
 #include <boost/weak_ptr.hpp>
 #include <contact/plane/problem.hpp>
@@ -118,7 +118,7 @@ public:
 	void showBodies(const std::vector<int>& ids);
 
 	/// Of two disks, at the time when their geometry was found [m].
-	Vector3r contactPoint(const Reading& r) const;
+	Vector3r contactPoint(const ContactState& r) const;
 
 	/// Reads a real interaction, with what a script has written into it.
 	void readSlot(const Found& found, int slot);
@@ -126,8 +126,8 @@ public:
 	void addPotential(const shared_ptr<Interaction>& interaction);
 	/// Takes a real interaction for a new contact; `merge` gives it its place.
 	void add(const shared_ptr<Interaction>& interaction);
-	/// The same without an interaction; `reading` has its strengths' number.
-	void add(const Reading& reading);
+	/// The same without an interaction; `state` has its strengths' number.
+	void add(const ContactState& state);
 	/// Takes up the contacts that were added, and leaves out those in `gone`, whose interactions become potential
 	/// ones.
 	void merge(InteractionContainer& list);
@@ -141,22 +141,22 @@ public:
 	void make(const Pair& pair);
 	/// Goes through the bare contacts and the points at which they are [m]; all interactions that there are are up
 	/// to date then.
-	void showBare(const std::function<void(const Reading&, const Vector3r&)>& take);
+	void showBare(const std::function<void(const ContactState&, const Vector3r&)>& take);
 	/// Bonds the bare contacts that are to be bonded, and returns how many, and how many bare ones are bonded then;
 	/// the others' interactions are up to date then, as ContactDynamicsEngine::bond needs them.
 	std::pair<int, int> bondBare();
 	/// Leaves out of the potential interactions those that are no longer in the list.
 	void forgetErased(InteractionContainer& list);
 
-	std::vector<BodyReading> bodies; // by id
-	std::vector<int>         shaped; // those that are no disks and of no clump
-	std::vector<int>         driven; // those with a motion in the plane that is given, since DOFs are blocked
+	std::vector<BodyState> bodies; // by id
+	std::vector<int>       shaped; // those that are no disks and of no clump
+	std::vector<int>       driven; // those with a motion in the plane that is given, since DOFs are blocked
 	std::vector<string> sizesTold; // what there is to tell of disks whose radius was changed, see ResidentSizes.cpp
-	std::vector<Reading>     readings; // by slot
-	std::vector<BondReading> bonds; // by slot, of contacts that the arrays keep
-	std::vector<BondStrain>  rests; // the same: what a bond has slipped and turned by yielding
+	std::vector<ContactState> states; // by slot
+	std::vector<BondState>    bonds; // by slot, of contacts that the arrays keep
+	std::vector<BondStrain>   rests; // the same: what a bond has slipped and turned by yielding
 	std::vector<char>
-	                   surelySolved; // by slot: touches or is bonded, so that it is solved whatever its velocity; so much of a reading is asked first
+	                   surelySolved; // by slot: touches or is bonded, so that it is solved whatever its velocity; so much of a state is asked first
 	std::vector<Place> order;
 	std::vector<int>   gone; // places in the order of contacts that are to be left out
 	std::vector<Pair>  proposed; // by the collider, and not taken for contacts yet; or no longer
@@ -204,7 +204,7 @@ private:
 	std::vector<FormerSize> resized(const Scene& scene, const std::vector<FormerSize>& changed);
 	void                    followSizes(Scene& scene, const std::vector<FormerSize>& all);
 	int                     freeSlot();
-	void                    hold(Reading& reading, const shared_ptr<Interaction>& interaction);
+	void                    hold(ContactState& state, const shared_ptr<Interaction>& interaction);
 	void                    showContact(int slot) const;
 	shared_ptr<Interaction> interactionOf(int slot) const;
 	void                    insert(int slot, const shared_ptr<Interaction>& interaction);
@@ -228,7 +228,7 @@ private:
 	size_t              interactionsSeen = 0; // at the end of the last turn
 	std::vector<int>    shownAlone; // bodies that a script may have changed since, see showOnly
 	std::vector<Shown>  asShown; // by id: during a run in the background; none else
-	std::vector<Holder> holders; // of interactions, by Reading::number
+	std::vector<Holder> holders; // of interactions, by ContactState::number
 	std::vector<int>    freeSlots, freeHolders;
 	std::vector<int>    bareSlots; // of bare contacts, and of some that are so no longer
 	size_t              strewn = 0; // contacts that came since slots were last in their order

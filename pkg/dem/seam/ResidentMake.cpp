@@ -1,7 +1,7 @@
 // Interactions of contacts that came while nobody looked: a bare contact has none until it is made, with all that the
 // arrays know of it.
 //
-// What a bare contact has is in its reading and, where it is bonded, in its marks; its strengths are those on which its
+// What a bare contact has is in its state and, where it is bonded, in its marks; its strengths are those on which its
 // bodies' materials agreed when it came, as they would be in its physics. An interaction is made where somebody may
 // look, where its bond breaks, and where others than the arrays have to follow it.
 #include "PlaneMotion.hpp"
@@ -28,11 +28,11 @@ int Resident::numberOf(const plane::Strengths& wanted)
 /// The interaction of a bare contact, which is in no list yet.
 shared_ptr<Interaction> Resident::interactionOf(int slot) const
 {
-	const Reading& r           = readings[slot];
-	const auto     interaction = boost::make_shared<Interaction>(r.first, r.second);
-	const auto     geom        = boost::make_shared<ScGeom>();
-	const auto     phys        = boost::make_shared<NscdPhys>();
-	*geom                      = *recipe.geom;
+	const ContactState& r           = states[slot];
+	const auto          interaction = boost::make_shared<Interaction>(r.first, r.second);
+	const auto          geom        = boost::make_shared<ScGeom>();
+	const auto          phys        = boost::make_shared<NscdPhys>();
+	*geom                           = *recipe.geom;
 	Ip2_NscdMat_NscdMat_NscdPhys::setStrengths(*phys, strengths[r.number], r.length);
 	if (r.bonded) {
 		const auto& [marks, zone] = bonds[slot];
@@ -55,8 +55,8 @@ shared_ptr<Interaction> Resident::interactionOf(int slot) const
 /// interaction in its place.
 void Resident::insert(int slot, const shared_ptr<Interaction>& interaction)
 {
-	Reading& r = readings[slot];
-	r.number   = -1; // that of its strengths is needed no longer
+	ContactState& r = states[slot];
+	r.number        = -1; // that of its strengths is needed no longer
 	if (!insert(interaction, r.born)) return;
 	r.interaction = interaction.get();
 	r.geom        = static_cast<ScGeom*>(interaction->geom.get());
@@ -107,7 +107,7 @@ void Resident::makeAll()
 		std::sort(slots.begin(), slots.end());
 		slots.erase(std::unique(slots.begin(), slots.end()), slots.end());
 		const auto isNone = [&](int slot) {
-			Reading& r = readings[slot];
+			ContactState& r = states[slot];
 			if (list->dirty && r.bare) r.number = -1;
 			return !r.bare || r.isLost();
 		};
@@ -140,7 +140,7 @@ void Resident::sort()
 	std::sort(added, potential.end(), isBefore<Potential>);
 	std::inplace_merge(potential.begin(), added, potential.end(), isBefore<Potential>);
 	const auto wanted = [&](long k) {
-		return k < contacts ? readings[order[k].slot].interaction : potential[k - contacts].interaction.get();
+		return k < contacts ? states[order[k].slot].interaction : potential[k - contacts].interaction.get();
 	};
 	long first = count; // that is not in its place
 #pragma omp parallel for schedule(static) num_threads(threads) reduction(min : first)
@@ -170,12 +170,12 @@ void Resident::sort()
 		(*list)[k] = std::move(moved[from[k - first] - first]);
 }
 
-void Resident::showBare(const std::function<void(const Reading&, const Vector3r&)>& take)
+void Resident::showBare(const std::function<void(const ContactState&, const Vector3r&)>& take)
 {
 	const auto guard = betweenTurns();
 	show({ "a table", true, false });
 	for (const Place& place : order)
-		if (const Reading& r = readings[place.slot]; r.bare && !r.isLost()) take(r, contactPoint(r));
+		if (const ContactState& r = states[place.slot]; r.bare && !r.isLost()) take(r, contactPoint(r));
 }
 
 std::pair<int, int> Resident::bondBare()
@@ -185,7 +185,7 @@ std::pair<int, int> Resident::bondBare()
 	const auto kept  = container.lock();
 	int        count = 0, all = 0;
 	for (const Place& place : order) {
-		Reading& r = readings[place.slot];
+		ContactState& r = states[place.slot];
 		all += r.bare && r.bonded && !r.isLost();
 		if (!r.bare || r.isLost() || r.bonded || isGone(r.first) || isGone(r.second)) continue;
 		const auto& s = strengths[r.number];

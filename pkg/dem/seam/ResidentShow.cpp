@@ -33,7 +33,7 @@ namespace {
 
 	/// Brings the state of the body of that id up to date, but for one that is gone, and what was changed by
 	/// somebody else since it was as in `asShown`.
-	void write(BodyReading& b, const shared_ptr<Body>& body, size_t id, std::vector<Resident::Shown>& asShown)
+	void write(BodyState& b, const shared_ptr<Body>& body, size_t id, std::vector<Resident::Shown>& asShown)
 	{
 		if (!b.moved) return;
 		b.moved = false;
@@ -46,7 +46,7 @@ namespace {
 
 void Resident::displace(size_t id, const nonsmooth::contact::Twist& d)
 {
-	BodyReading& b = bodies[id];
+	BodyState& b = bodies[id];
 	if (b.planar) {
 		nonsmooth::contact::plane::displace(b.motion, d);
 		b.moved = true;
@@ -82,9 +82,9 @@ void Resident::showBodies(const std::vector<int>& ids)
 	}
 }
 
-Vector3r Resident::contactPoint(const Reading& r) const
+Vector3r Resident::contactPoint(const ContactState& r) const
 {
-	if (r.wasRead || r.keeper != Reading::Arrays) return r.geom->contactPoint;
+	if (r.wasRead || r.keeper != ContactState::Arrays) return r.geom->contactPoint;
 	const Vector3r at(places[r.first].x, places[r.first].y, bodies[r.first].z), normal(r.nx, r.ny, r.nz);
 	return at + (bodies[r.first].radius - 0.5 * -r.gap) * normal;
 }
@@ -93,8 +93,8 @@ Vector3r Resident::contactPoint(const Reading& r) const
 /// has written into its physics since it was read stays, and is read again.
 void Resident::showContact(int slot) const
 {
-	const Reading& r = readings[slot];
-	if (r.keeper != Reading::Arrays || !r.phys) return;
+	const ContactState& r = states[slot];
+	if (r.keeper != ContactState::Arrays || !r.phys) return;
 	ScGeom&    geom      = *r.geom;
 	NscdPhys&  phys      = *r.phys;
 	const bool isWritten = phys.touched || phys.isWritten();
@@ -136,7 +136,7 @@ void Resident::show(const Look& look)
 #pragma omp parallel for schedule(static) num_threads(threads)
 		for (long k = 0; k < count; ++k) {
 			if (k + (long)soon < count) {
-				const Reading& ahead = readings[order[k + soon].slot];
+				const ContactState& ahead = states[order[k + soon].slot];
 				if (ahead.geom) fetch<partOfGeometry>(ahead.geom);
 				if (ahead.phys) fetch<partOfPhysics>(ahead.phys);
 			}
@@ -210,8 +210,8 @@ void Resident::takeShown(Scene& scene)
 {
 	const auto known = std::exchange(shownAlone, {});
 	for (const int id : known) {
-		BodyReading&      b   = bodies[id];
-		const BodyReading now = readBody((*scene.bodies)[id].get());
+		BodyState&      b   = bodies[id];
+		const BodyState now = readBody((*scene.bodies)[id].get());
 		if (now.present != b.present || now.plain != b.plain || now.clumped != b.clumped
 		    || now.radius != b.radius || now.blocked != b.blocked) {
 			show();
@@ -225,9 +225,9 @@ void Resident::takeShown(Scene& scene)
 
 void Resident::disks(const std::function<double*(size_t)>& room)
 {
-	constexpr size_t         columns = 8, chunk = 4096;
-	const auto               guard = betweenTurns();
-	std::vector<BodyReading> shown; // where the arrays are not right
+	constexpr size_t       columns = 8, chunk = 4096;
+	const auto             guard = betweenTurns();
+	std::vector<BodyState> shown; // where the arrays are not right
 	if (!bodiesOwned) {
 		const auto kept = container.lock();
 		shown.resize(kept->size());
@@ -236,7 +236,7 @@ void Resident::disks(const std::function<double*(size_t)>& room)
 			shown[id] = readBody((*kept)[id].get());
 	}
 	const auto&  all    = bodiesOwned ? bodies : shown;
-	const auto   isDisk = [](const BodyReading& b) { return b.present && b.radius > 0; };
+	const auto   isDisk = [](const BodyState& b) { return b.present && b.radius > 0; };
 	const size_t chunks = (all.size() + chunk - 1) / chunk;
 	const auto   end    = [&](size_t part) { return std::min(all.size(), (part + 1) * chunk); };
 
@@ -250,7 +250,7 @@ void Resident::disks(const std::function<double*(size_t)>& room)
 	for (size_t part = 0; part < chunks; ++part) {
 		double* row = rows + columns * before[part];
 		for (size_t id = part * chunk; id < end(part); ++id) {
-			const BodyReading& b = all[id];
+			const BodyState& b = all[id];
 			if (!isDisk(b)) continue;
 			const auto&  m               = b.motion;
 			const double turned          = 2 * std::atan2(m.rotation.z, m.rotation.w);

@@ -92,8 +92,8 @@ void Resident::followSizes(Scene& scene, const std::vector<FormerSize>& all)
 	if (changed.empty()) return;
 	if (contactsOwned || bare > 0) show();
 	for (const FormerSize& former : changed) {
-		BodyReading& b    = bodies[former.id];
-		Body&        body = *(*scene.bodies)[former.id];
+		BodyState& b    = bodies[former.id];
+		Body&      body = *(*scene.bodies)[former.id];
 		if (string what = followSize(body, former, b.radius); !what.empty())
 			sizesTold.push_back(std::move(what));
 		b.mass           = body.state->mass;

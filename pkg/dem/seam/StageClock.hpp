@@ -27,7 +27,7 @@ struct StageClock {
 	static StageClock* of(const Scene& scene);
 };
 
-/// Counts the time from one reading of the clock to the next for the stage that goes on in between; the last stage ends
+/// Counts the time from one state of the clock to the next for the stage that goes on in between; the last stage ends
 /// with the block, however it ends.
 class StageTimer {
 public:

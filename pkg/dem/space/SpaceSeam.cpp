@@ -42,7 +42,7 @@ namespace {
 	Real inverseIn(unsigned blocked, unsigned axis, Real value) { return blocked & axis ? 0 : 1 / value; }
 }
 
-bool isInSpace(const Scene& scene, const std::vector<BodyReading>& bodies)
+bool isInSpace(const Scene& scene, const std::vector<BodyState>& bodies)
 {
 	for (const auto& engine : scene.engines)
 		if (!engine->dead
@@ -50,17 +50,17 @@ bool isInSpace(const Scene& scene, const std::vector<BodyReading>& bodies)
 		        || dynamic_cast<const PlanarNewtonIntegrator*>(engine.get())))
 			return false;
 	constexpr unsigned out  = State::DOF_Z | State::DOF_RX | State::DOF_RY;
-	const auto         free = std::find_if(bodies.begin(), bodies.end(), [](const BodyReading& b) {
+	const auto         free = std::find_if(bodies.begin(), bodies.end(), [](const BodyState& b) {
                 return b.present && b.radius > 0 && b.blocked != State::DOF_ALL && (b.blocked & out) != out;
         });
 	if (free == bodies.end()) { // where no sphere is there yet, gravity tells
-		const bool     empty = std::none_of(bodies.begin(), bodies.end(), [](const BodyReading& b) {
+		const bool     empty = std::none_of(bodies.begin(), bodies.end(), [](const BodyState& b) {
                         return b.present && b.radius > 0;
                 });
 		const Vector3r g     = gravityOf(scene);
 		return empty && g[2] != 0 && std::isfinite(g[2]);
 	}
-	const auto isOfThePlane = [&](const BodyReading& b) {
+	const auto isOfThePlane = [&](const BodyState& b) {
 		if (!b.present || b.radius > 0) return false;
 		const auto&  body  = (*scene.bodies)[&b - bodies.data()];
 		const Shape* shape = body ? body->shape.get() : nullptr;
@@ -112,7 +112,7 @@ void SpaceSeam::gatherBodies(Scene& scene, const Vector3r& gravity)
 			fetch<sizeof(Sphere)>(all[id + soon]->shape.get());
 		}
 		const auto& b         = all[id];
-		BodyState&  own       = bodies[id];
+		StepBody&   own       = bodies[id];
 		auto&       m         = problem.inverseMass[id];
 		auto&       v         = problem.freeVelocity[id];
 		own                   = {};
@@ -214,12 +214,12 @@ void SpaceSeam::refuse(const Scene& scene, Interaction& I) const
 	if (!std::isfinite(static_cast<const ScGeom&>(*I.geom).normal.sum()))
 		fail(pair
 		     + " has no normal: the centres are at one place, or a position is not finite: move one of them");
-	Reading     reading;
-	BondReading bond;
-	BondStrain  rest;
-	read(look(I), reading, bond, rest);
-	reading.nz = 0; // nothing is wrong with that here
-	refuseContact(scene, reading);
+	ContactState state;
+	BondState    bond;
+	BondStrain   rest;
+	read(look(I), state, bond, rest);
+	state.nz = 0; // nothing is wrong with that here
+	refuseContact(scene, state);
 }
 
 /// All real interactions of rigid contacts: those to be solved for in the order of ids, and those that are left out.

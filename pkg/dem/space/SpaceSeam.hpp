@@ -43,7 +43,7 @@ public:
 
 private:
 	/// What the solve knows of a body besides the problem.
-	struct BodyState {
+	struct StepBody {
 		bool                             present = false;
 		Real                             mass = 0, inertia = 0, radius = -1; // radius: of a sphere
 		nonsmooth::contact::space::Twist before,
@@ -91,7 +91,7 @@ private:
 
 	Relaxation                                            relaxation {};
 	int                                                   threads = 1;
-	std::vector<BodyState>                                bodies; // by id
+	std::vector<StepBody>                                 bodies; // by id
 	std::vector<Link>                                     links; // by contact of the problem
 	std::vector<Found>                                    found; // by thread, in no order
 	std::vector<Left>                                     left; // in no order
@@ -104,6 +104,6 @@ private:
 
 /// Whether the scene's bodies move in space: one is free out of the x-y plane, and no engine or shape says that the
 /// plane is meant.
-bool isInSpace(const Scene& scene, const std::vector<BodyReading>& bodies);
+bool isInSpace(const Scene& scene, const std::vector<BodyState>& bodies);
 
 } // namespace yade::nscd

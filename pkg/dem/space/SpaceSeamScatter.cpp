@@ -142,11 +142,11 @@ void SpaceSeam::scatterContact(size_t k, Sums& sums) const
 
 void SpaceSeam::sumBody(size_t id, const Vector3r& gravity, StepSums& sums) const
 {
-	const BodyState& b  = bodies[id];
-	const auto&      m  = problem.inverseMass[id];
-	const auto &     v0 = b.before, &v1 = problem.velocities[id], &r = reaction[id], &f = b.external;
-	const Real       h    = relaxation.step;
-	const auto       mean = space::Twist { 0.5 * (v0.v + v1.v), 0.5 * (v0.w + v1.w) };
+	const StepBody& b  = bodies[id];
+	const auto&     m  = problem.inverseMass[id];
+	const auto &    v0 = b.before, &v1 = problem.velocities[id], &r = reaction[id], &f = b.external;
+	const Real      h    = relaxation.step;
+	const auto      mean = space::Twist { 0.5 * (v0.v + v1.v), 0.5 * (v0.w + v1.w) };
 	const auto given = [](Real inverseMass, Real force, Real speed) { return inverseMass > 0 ? 0 : force * speed; };
 	const auto free  = [](Real inverseMass, Real force, Real speed) { return inverseMass > 0 ? force * speed : 0; };
 	// where the motion is given, the work that the contacts do on it goes outside; elsewhere other engines' forces

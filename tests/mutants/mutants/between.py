@@ -1,7 +1,7 @@
 """What scripts and other engines do between two steps: written contacts, walls moved by their positions, sizes, what bodies bring; and the refusals of what leaves the plane."""
 from mutant import mutant
 
-PHYS, PHYS_H, READING, RESIDENT = "pkg/dem/materials/NscdPhys.cpp", "pkg/dem/materials/NscdPhys.hpp", "pkg/dem/seam/ContactReading.hpp", "pkg/dem/seam/Resident.cpp"
+PHYS, PHYS_H, READING, RESIDENT = "pkg/dem/materials/NscdPhys.cpp", "pkg/dem/materials/NscdPhys.hpp", "pkg/dem/seam/ContactState.hpp", "pkg/dem/seam/Resident.cpp"
 GIVEN, SIZES, SCATTER, SEAM = "pkg/dem/seam/GivenMotion.cpp", "pkg/dem/seam/ResidentSizes.cpp", "pkg/dem/seam/ContactSeamScatter.cpp", "pkg/dem/seam/ContactSeam.cpp"
 ENGINE, PLANE, CHECK, MAKE = "pkg/dem/engines/ContactDynamicsEngine.cpp", "pkg/dem/checks/PlaneCheck.cpp", "pkg/dem/checks/SceneCheck.cpp", "pkg/dem/seam/ResidentMake.cpp"
 WRITTEN, MOTION, SIZE, BROUGHT = "test_written_contacts.py", "test_given_motion.py", "test_sizes.py", "test_brought_energy.py"

@@ -7,7 +7,7 @@ STEPPER, WATER, NEWTON = "pkg/dem/engines/NonsmoothTimeStepper.cpp", "pkg/dem/en
 TO_PLANE, GIVEN = "pkg/dem/seam/PlaneMotion.hpp", "pkg/dem/seam/ContactSeamGiven.cpp"
 RESIDENT, SHOW, MAKE = "pkg/dem/seam/Resident.cpp", "pkg/dem/seam/ResidentShow.cpp", "pkg/dem/seam/ResidentMake.cpp"
 COME, BARE_BONDS = "test_bare_contacts.py::test_contacts_that_come_and_go_are_the_same_once_they_are_seen", "test_bare_contacts.py::test_bonds_of_contacts_that_nobody_has_seen"
-AUDIENCE, READING = "pkg/dem/seam/Audience.cpp", "pkg/dem/seam/ContactReading.hpp"
+AUDIENCE, READING = "pkg/dem/seam/Audience.cpp", "pkg/dem/seam/ContactState.hpp"
 SAME, OWN, LOOKS = "test_view.py::test_all_that_python_can_read_is_the_same_in_every_way", "test_view.py::test_interactions_are_what_yades_own_loop_makes_of_them", "test_view.py::test_engines_that_look_now_and_then_see_the_truth"
 COLLIDER, COLLIDER_H, LOOP = "pkg/dem/engines/PlanarGridCollider.cpp", "pkg/dem/engines/PlanarGridCollider.hpp", "pkg/dem/engines/NscdInteractionLoop.cpp"
 WAY, WAYS = "pkg/dem/seam/ContactSeamWay.cpp", "test_long_ways.py"
@@ -25,12 +25,12 @@ MUTANTS = (
            "test_engine.py::test_gaps_that_stay_open_are_left_out"),
     mutant("gather-recall", "pkg/dem/seam/Recall.hpp", "gapAfter(k) < -unseen * lengthOf(k)", "gapAfter(k) < -lengthOf(k)",
            "contacts left out are recalled a diameter too late", "test_engine.py::test_who_is_hit_hits_the_next_without_overlap"),
-    mutant("gather-lever", SEAM, "contact::plane::setDiskFrame(c, i, j, nx, ny, radius[i], radius[j], reading.gap)",
-           "contact::plane::setDiskFrame(c, i, j, nx, ny, radius[j], radius[i], reading.gap)", "the levers of two disks are exchanged",
+    mutant("gather-lever", SEAM, "contact::plane::setDiskFrame(c, i, j, nx, ny, radius[i], radius[j], state.gap)",
+           "contact::plane::setDiskFrame(c, i, j, nx, ny, radius[j], radius[i], state.gap)", "the levers of two disks are exchanged",
            "test_reactions.py::test_a_wheel_drives_another_by_the_ratio_of_their_radii"),
     mutant("gather-wall-lever", SEAM, "c.leverNi = ny * ri.x - nx * ri.y;", "c.leverNi = nx * ri.y - ny * ri.x;", "the normal lever of a wall has the wrong sign",
            "test_reactions.py::test_a_wall_feels_the_moment_of_what_lies_on_it", "test_engine.py::test_turning_wall_drags_a_disk"),
-    mutant("gather-impact", SEAM, "reading.restitution * approach", "-reading.restitution * approach",
+    mutant("gather-impact", SEAM, "state.restitution * approach", "-state.restitution * approach",
            "restitution draws on instead of throwing back", "test_reactions.py::test_a_disk_bounces_step_by_step_as_the_rules_say"),
     mutant("gather-rest", CORRECT, "e.held ? r.restGap : 0", "0", "a bond forgets the gap over which it was made",
            "test_positions.py::test_a_bond_finds_its_length_from_both_sides"),
@@ -87,7 +87,7 @@ MUTANTS = (
     mutant("scatter-bond-rate", SCATTER, "std::abs(u.t) / across", "std::abs(u.t) / along", "the rate of bonds has one half-axis for both",
            "test_time_stepper.py::test_the_rate_of_a_bond_is_that_at_which_it_crosses_its_ellipse"),
     # ---- errors of position
-    mutant("gather-push", SEAM, "c.length          = reading.length;", "c.length = reading.length; if (!reading.bonded && gap < 0) c.biasN += 0.2 * gap / h;", "overlaps are taken back by a bias on the velocity, which pushes",
+    mutant("gather-push", SEAM, "c.length          = state.length;", "c.length = state.length; if (!state.bonded && gap < 0) c.biasN += 0.2 * gap / h;", "overlaps are taken back by a bias on the velocity, which pushes",
            "test_verification.py::test_quick_form_of_a_long_check_holds[collapse-of-rounded-places]", slow=True),
     mutant("correct-share", CORRECT, "(1 - relaxation.rate) * std::min(Real(0), off + slack)", "relaxation.rate * std::min(Real(0), off + slack)",
            "what one step takes back and what it leaves are exchanged", "test_positions.py::test_an_overlap_shrinks_by_its_share_a_step_and_the_centre_stays"),
@@ -104,7 +104,7 @@ MUTANTS = (
            "test_tumbling.py::test_bonded_bodies_tumble_freely_for_ever"),
     mutant("cluster-weight", SCATTER, "0.5 * h * mass[id]", "-0.5 * h * mass[id]", "what a pendulum turns is taken for a lift",
            "test_tumbling.py::test_the_balance_of_a_pendulum_on_a_pin_stays_closed"),
-    mutant("cluster-saved", "pkg/dem/seam/ContactReading.hpp", "r.joins = phys.joins;", "r.joins = false;", "what turned as one is forgotten when it is saved",
+    mutant("cluster-saved", "pkg/dem/seam/ContactState.hpp", "r.joins = phys.joins;", "r.joins = false;", "what turned as one is forgotten when it is saved",
            "test_tumbling.py::test_saved_and_loaded_in_full_spin_it_has_the_same_bits"),
     mutant("bond-slip-back", CORRECT, "taken(r.slip, slip, slack)", "0", "what a bond has slipped stays", "test_tumbling.py::test_what_a_bond_has_slipped_without_yielding_is_taken_back"),
     mutant("bond-turn-back", CORRECT, "taken(r.turn, turn, angle)", "0", "what a bond has turned stays",
@@ -303,9 +303,9 @@ MUTANTS = (
     mutant("bare-made", SHOW, "if (look.makes) makeAll();", ";", "contacts that came while nobody looked are not seen later", "test_bare_contacts.py::test_what_nobody_asks_for_is_not_made"),
     mutant("bare-unseen", "pkg/dem/engines/NscdInteractionLoopProposed.cpp", "if (r.usable) taken[k] = Taken::Bare;", ";", "every contact gets an interaction at once", "test_bare_contacts.py::test_what_nobody_asks_for_is_not_made"),
     mutant("bare-born", MAKE, "interaction->iterBorn = born;", ";", "a contact is as old as the first look at it", COME),
-    mutant("bare-order", MAKE, "readings[order[k].slot].interaction", "readings[order[contacts - 1 - k].slot].interaction",
+    mutant("bare-order", MAKE, "states[order[k].slot].interaction", "states[order[contacts - 1 - k].slot].interaction",
            "O.interactions has another order than that of ids", "test_bare_contacts.py::test_what_nobody_asks_for_is_not_made"),
-    mutant("bare-known", RESIDENT, "at->low == low && at->high == high && !readings[at->slot].isLost()", "false", "a pair becomes a contact once more when the collider forgets what it knows",
+    mutant("bare-known", RESIDENT, "at->low == low && at->high == high && !states[at->slot].isLost()", "false", "a pair becomes a contact once more when the collider forgets what it knows",
            "test_bare_contacts.py::test_a_collider_that_looks_anew_finds_no_pair_twice"),
     mutant("bare-slip", PHYS, "if (dynamic_cast<const SlipWeakeningMat*>(one.interfaceWith(other))) return {};", ";", "an interface that weakens keeps its strength where nobody looks",
            "test_bare_contacts.py::test_an_interface_that_weakens_has_interactions"),
@@ -329,7 +329,7 @@ MUTANTS = (
            "test_messages.py::test_another_material_with_a_functor_of_its_own_is_let_be"),
     mutant("surely-inactive", "pkg/dem/engines/NscdInteractionLoop.cpp", "r.active && r.usable", "r.usable", "an interaction that a script has silenced is solved",
            "test_engine.py::test_an_interaction_that_is_silenced_bears_nothing"),
-    mutant("known-written", RESIDENT, "r.keeper != Reading::Arrays || r.phys->touched", "r.keeper != Reading::Arrays", "what is written into a contact between two steps is lost",
+    mutant("known-written", RESIDENT, "r.keeper != ContactState::Arrays || r.phys->touched", "r.keeper != ContactState::Arrays", "what is written into a contact between two steps is lost",
            "test_view.py::test_what_is_changed_between_two_runs_is_taken_up[friction]"),
     mutant("known-exchanged", RESIDENT, "i.geom != held.geom || i.phys != held.phys", "i.geom != held.geom", "physics that a script has put in place of another is not taken up",
            "test_view.py::test_what_is_changed_between_two_runs_is_taken_up[exchanged physics]"),

@@ -46,7 +46,7 @@ MUTANTS = (
     mutant("impacts-lifted", SEAM, "sums.correction -= m * gravity.dot(Vector3r(f.shift.x, f.shift.y, 0));", "sums.correction += m * gravity.dot(Vector3r(f.shift.x, f.shift.y, 0));",
            "what displacements lift is taken for what they lower", GRAVITY),
     mutant("impacts-begun", SCATTER, "followed ? begun[id] : v0", "v0", "the kinetic energy of a step's beginning is that after its impacts", CHAINS),
-    mutant("impacts-forces", SCATTER, "r              = { r.x + p.x, r.y + p.y, r.w + p.w };", "r = { r.x + p.x, r.y + p.y, r.w };", "impacts do not turn bodies", FRICTION),
+    mutant("impacts-forces", SCATTER, "r               = { r.x + p.x, r.y + p.y, r.w + p.w };", "r = { r.x + p.x, r.y + p.y, r.w };", "impacts do not turn bodies", FRICTION),
     mutant("impacts-displaced", "pkg/dem/seam/ContactSeam.hpp", "d.y + s.y", "d.y", "bodies are displaced along x alone",
            "test_impacts.py::test_any_frame_and_any_ids_see_the_same_impacts"),
     mutant("impacts-settling", "pkg/dem/engines/ContactDynamicsWarnings.cpp", "again * settling", "0 * settling", "what settles by a micrometre is told of",

@@ -8,9 +8,9 @@ BLOCKS, RESIDUAL, STOPPING = ( "pkg/contact/core/contact_blocks.tpp", "pkg/conta
 ORDER, CUT, SCHEDULE = ("pkg/contact/core/sweep_order.cpp", "pkg/contact/core/strip_cut.cpp", "pkg/contact/core/strip_schedule.cpp")
 WAVES = "pkg/contact/core/strip_schedule.hpp"
 STRIPS, EXTRAPOLATION = "pkg/contact/core/active_strips.cpp", "pkg/contact/core/extrapolation.hpp"
-CHECK, SURVEY = "pkg/contact/plane/problem_check.hpp", "pkg/contact/plane/survey.cpp"
+CHECK, SURVEY = "pkg/contact/plane/problem_check.hpp", "pkg/contact/plane/classification.cpp"
 GRID, NEAR, REGIONS = "pkg/neighbours/disk_grid.cpp", "pkg/neighbours/disk_grid.hpp", "pkg/neighbours/regions.cpp"
-CUT_KEPT = "survey.pairsKept && !moved && bins == binsBefore && scratch.width == widthBefore"  # of strip_cut.cpp
+CUT_KEPT = "classification.pairsKept && !moved && bins == binsBefore && scratch.width == widthBefore"  # of strip_cut.cpp
 
 MUTANTS = (
     # ---- law
@@ -49,7 +49,7 @@ MUTANTS = (
            "change(vi, c.leverNi, c.leverTi)", "a speed is held against the first body's change alone", "gtest:UnevenMasses.SharesOfSpeed*"),
     mutant("speed-share-lanes", KERNELS, "maxOf<V>(a.x * a.x + a.y * a.y + turnI * turnI, b.x * b.x + b.y * b.y + turnJ * turnJ)",
            "a.x * a.x + a.y * a.y + turnI * turnI", "in blocks a speed is held against the first body's change alone", "gtest:UnevenMasses.SharesOfSpeed*"),
-    mutant("speed-share-asked", SWEEPER, "residual.missed(tolerance, laidOut.survey.uneven) <= 1", "residual.relative() <= tolerance", "light bodies are not looked at", "gtest:UnevenMasses.ALightDisk*"),
+    mutant("speed-share-asked", SWEEPER, "residual.missed(tolerance, laidOut.classification.uneven) <= 1", "residual.relative() <= tolerance", "light bodies are not looked at", "gtest:UnevenMasses.ALightDisk*"),
     mutant("patch-lane", "pkg/contact/plane/patch_solver.cpp", "block.n.v[l] = block.beforeN.v[l] = p.n;", "block.n.v[l] = block.beforeN.v[l] = p.t;",
            "a patch's impulses go to other rows", "gtest:UnevenMasses.*"),
     mutant("stagnation", EXTRAPOLATION, "least > gain * leastBefore", "false", "the acceleration may run in circles to the end", "gtest:Stagnation.*"),
@@ -105,11 +105,11 @@ MUTANTS = (
            "colours are kept though the second body of contacts is held from now on, or let go", "gtest:Kept.*"),
     mutant("kept-simple", SURVEY, "newSimple || fits != result.simple[k]", "newSimple", "contacts stay in blocks that they do not fit into any more", "gtest:Kept.*"),
     mutant("kept-strips", CUT, "moved || strip != result.stripOfBody[b]", "moved", "an order is kept though bodies are in other strips", "gtest:Kept.*"),
-    mutant("kept-bins", CUT, CUT_KEPT, "survey.pairsKept && bins == binsBefore && scratch.width == widthBefore",
+    mutant("kept-bins", CUT, CUT_KEPT, "classification.pairsKept && bins == binsBefore && scratch.width == widthBefore",
            "a cut into strips is kept though bodies are in other bins", "gtest:Kept.*"),
     mutant("kept-counts", CUT, CUT_KEPT, "!moved && bins == binsBefore && scratch.width == widthBefore",
            "a cut into strips is kept though contacts have gone", "gtest:Kept.*"),
-    mutant("kept-uncut", CUT, CUT_KEPT, "survey.pairsKept && !moved", "one strip is kept though positions are there again", "gtest:Kept.*"),
+    mutant("kept-uncut", CUT, CUT_KEPT, "classification.pairsKept && !moved", "one strip is kept though positions are there again", "gtest:Kept.*"),
     mutant("kept-after-refusal", BLOCKS, "if (!whole) seen.pairsKept = seen.simpleKept = false;", "if (false) seen.pairsKept = seen.simpleKept = false;",
            "what a refused problem left counts as the last one", "gtest:Kept.*"),
     mutant("kept-numbers", SOLVER, "fillIn(problem, kernels, s, exact.laidOut);", "if (!laidOut.kept) fillIn(problem, kernels, s, exact.laidOut);",

@@ -3,7 +3,7 @@ from mutant import mutant
 
 LAW, PROBLEM, GENERAL = "pkg/contact/space/law.hpp", "pkg/contact/space/problem.hpp", "pkg/contact/space/law.cpp"
 KERNELS, FILL, RESIDUAL = "pkg/contact/space/kernels.inc", "pkg/contact/space/passes.inc", "pkg/contact/space/residual.cpp"
-SURVEY, CORRECTION, CUT = "pkg/contact/space/survey.cpp", "pkg/contact/space/position_correction.cpp", "pkg/contact/core/strip_cut.cpp"
+SURVEY, CORRECTION, CUT = "pkg/contact/space/classification.cpp", "pkg/contact/space/position_correction.cpp", "pkg/contact/core/strip_cut.cpp"
 ONE, MADE, PATHS = "gtest:*SpaceOneContact*", "gtest:SpaceManufactured.*", "gtest:SpacePaths.*"
 
 MUTANTS = (
@@ -52,7 +52,7 @@ MUTANTS = (
     mutant("balls-fill-turn", FILL, "cross(leverJ * spinJ - leverI * spinI, n)", "cross(leverJ * spinJ + leverI * spinI, n)", "blocks take the first body's spin for its contrary", MADE, PATHS),
     mutant("balls-fill-disc", FILL, "shrinkInto<V>(dot(r, r), most(rollingArm)) * r", "r", "a warm start has rolling impulses beyond their threshold", MADE, PATHS, "gtest:SpaceWarm*"),
     # ---- what is looked at before
-    mutant("balls-ball", SURVEY, "(!(j & Survey::turns) || isZero(c.asideJ))", "true", "arms across n go into blocks, which do not know them", MADE),
+    mutant("balls-ball", SURVEY, "(!(j & Classification::turns) || isZero(c.asideJ))", "true", "arms across n go into blocks, which do not know them", MADE),
     mutant("balls-axis", CUT, "axis > 0 && places.axes == 2", "axis > 0", "strips across y and z do not follow the bodies' numbers", "gtest:SpaceSymmetry.AMirrored*"),
     mutant("balls-share", RESIDUAL, "std::max(change(vi, c.leverI, c.asideI), change(vj, c.leverJ, c.asideJ))", "change(vi, c.leverI, c.asideI)",
            "a speed is held against the first body's change alone", "gtest:SpaceGeneral.*"),

@@ -4,7 +4,7 @@ from mutant import mutant
 SEGMENT, JOINTS, JOINTS_H, ARC, ARC_H = (
     f"pkg/dem/walls/{name}" for name in ("Segment.cpp", "WallJoints.cpp", "WallJoints.hpp", "Arc.cpp", "Arc.hpp")
 )
-PLATE, LOOP, READING = "pkg/dem/engines/PlateLoadEngine.cpp", "pkg/dem/engines/NscdInteractionLoop.cpp", "pkg/dem/seam/ContactReading.hpp"
+PLATE, LOOP, READING = "pkg/dem/engines/PlateLoadEngine.cpp", "pkg/dem/engines/NscdInteractionLoop.cpp", "pkg/dem/seam/ContactState.hpp"
 SEAM, CORRECT, SCENE = "pkg/dem/seam/ContactSeam.cpp", "pkg/dem/seam/ContactSeamCorrect.cpp", "py/nonsmooth/world/scene.py"
 KEPT = "test_joints.py::test_a_disk_keeps_its_speed_over_joints_of_walls_made"
 CORNERS = "test_joints.py::test_corners_of_single_walls_are_those_of_a_polyline"
@@ -45,7 +45,7 @@ MUTANTS = (
     mutant("arc-beyond", ARC_H, "square < least * least || square > most * most", "square < arc.radius * arc.radius || square > most * most", "disks inside a drum are not seen to come", "test_arcs.py"),
     mutant("arc-tip", ARC, "d - arc.radius * tip", "d", "the end of an arc is its centre", "test_arcs.py::test_the_end_of_an_arc_is_a_corner"),
     mutant("arc-way", JOINTS, "z.cross(from)", "from.cross(z)", "an arc begins away from itself", "test_arcs.py::test_a_corner_of_an_arc_and_a_segment_has_one_contact"),
-    mutant("arc-bonded", SEAM, "reading.bonded && curvature != 0", "false", "a bond to a drum that turns is pushed off its circle",
+    mutant("arc-bonded", SEAM, "state.bonded && curvature != 0", "false", "a bond to a drum that turns is pushed off its circle",
            "test_arcs.py::test_a_bond_to_a_drum_that_turns_holds"),
     mutant("arc-sense", SCENE, "1 if inside else -1", "-1 if inside else 1", "inside and outside are exchanged", "test_arcs.py::test_a_one_sided_arc_holds_on_its_side_alone"),
     # ---- plates

@@ -31,7 +31,7 @@ struct Coordinates {
 	double operator()(std::size_t body, int axis) const { return first[body * axes + axis]; }
 };
 
-struct Survey {
+struct Classification {
 	/// What the short formulas of the blocks ask of a body.
 	enum BodyTrait : std::uint8_t { turns = 1, plain = 2, moves = 4 };
 

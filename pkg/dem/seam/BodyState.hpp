@@ -7,7 +7,7 @@
 
 namespace yade::nscd {
 
-struct BodyReading {
+struct BodyState {
 	nonsmooth::contact::plane::Motion motion;
 	Real                              z;
 	Real                              mass, inertia; // of motion in the plane
@@ -25,7 +25,7 @@ struct BodyReading {
 };
 
 /// Whether two disks are farther apart than `factor` sums of their radii, as Ig2_Sphere_Sphere_ScGeom tells it.
-inline bool areBeyond(Real factor, const BodyReading& first, const BodyReading& second)
+inline bool areBeyond(Real factor, const BodyState& first, const BodyState& second)
 {
 	return std::pow(factor * (first.radius + second.radius), 2) - (second.place() - first.place()).squaredNorm()
 	        < 0;
@@ -35,7 +35,7 @@ inline bool areBeyond(Real factor, const BodyReading& first, const BodyReading& 
 constexpr unsigned inPlane = State::DOF_X | State::DOF_Y | State::DOF_RZ;
 
 /// Reads a body, null where there is none; one without a state has nothing else set, as where there is none.
-BodyReading readBody(const Body* body);
+BodyState readBody(const Body* body);
 
 /// What a body was when it was last read, whose radius is another one now.
 struct FormerSize {
@@ -43,10 +43,10 @@ struct FormerSize {
 	Real radius, mass, inertia; // [m, kg, kg m²]
 };
 
-/// Reads all bodies of a scene, by id; returns those of other radius than `readings` had, in the order of ids.
-std::vector<FormerSize> readBodies(Scene& scene, int threads, std::vector<BodyReading>& readings);
+/// Reads all bodies of a scene, by id; returns those of other radius than `states` had, in the order of ids.
+std::vector<FormerSize> readBodies(Scene& scene, int threads, std::vector<BodyState>& states);
 
 /// Reads place, orientation and velocity in the plane.
-void readMotion(const State& state, BodyReading& reading);
+void readMotion(const State& state, BodyState& result);
 
 } // namespace yade::nscd

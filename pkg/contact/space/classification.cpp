@@ -1,22 +1,22 @@
 #include <algorithm>
 #include <contact/core/mass_ratio.hpp>
 #include <contact/space/problem_check.hpp>
-#include <contact/space/survey.hpp>
+#include <contact/space/classification.hpp>
 
 namespace nonsmooth::contact::space {
 namespace {
 
 	std::uint8_t traitsOf(const InverseMass& m)
 	{
-		return (m.inertia.isZero() ? 0 : Survey::turns) | (m.isBall() ? Survey::plain : 0)
-		        | (m.isFixed() ? 0 : Survey::moves);
+		return (m.inertia.isZero() ? 0 : Classification::turns) | (m.isBall() ? Classification::plain : 0)
+		        | (m.isFixed() ? 0 : Classification::moves);
 	}
 
 	/// Whether the short formulas of the blocks hold: what turns has its arm along n.
 	bool isSimple(const Contact& c, std::uint8_t i, std::uint8_t j)
 	{
-		return (i & j & Survey::plain) && (!(i & Survey::turns) || isZero(c.asideI))
-		        && (!(j & Survey::turns) || isZero(c.asideJ));
+		return (i & j & Classification::plain) && (!(i & Classification::turns) || isZero(c.asideI))
+		        && (!(j & Classification::turns) || isZero(c.asideJ));
 	}
 
 	bool isMassJump(const InverseMass& i, const InverseMass& j, double jump)
@@ -35,7 +35,7 @@ namespace {
 	}
 
 	/// Traits of bodies and where they are. Refuses what cannot be used.
-	void surveyBodies(const Problem& problem, int threads, Survey& result)
+	void classifyBodies(const Problem& problem, int threads, Classification& result)
 	{
 		const long count     = static_cast<long>(problem.bodyCount());
 		const bool hasPlaces = !problem.positions.empty(), counted = problem.bodyCount() <= fewBodies;
@@ -78,7 +78,7 @@ namespace {
 	}
 
 	/// Pairs of contacts, how long they are, and whether they fit into blocks. Refuses what cannot be used.
-	void surveyContacts(const Problem& problem, int threads, bool blocks, Survey& result)
+	void classifyContacts(const Problem& problem, int threads, bool blocks, Classification& result)
 	{
 		const long    count     = static_cast<long>(problem.contactCount());
 		const auto    bodies    = static_cast<std::int32_t>(problem.bodyCount());
@@ -100,16 +100,17 @@ namespace {
 				continue;
 			}
 			const std::uint8_t i = result.traits[c.i], j = result.traits[c.j];
-			const MovablePair  pair { i & Survey::moves ? c.i : ~c.i, j & Survey::moves ? c.j : ~c.j };
-			MovablePair&       before = result.pairs[k];
-			newPairs                  = newPairs || pair.i != before.i || pair.j != before.j;
-			before                    = pair;
-			const std::uint8_t fits   = blocks && isSimple(c, i, j);
-			newSimple                 = newSimple || fits != result.simple[k];
-			plays                     = plays || c.play > 0;
-			result.simple[k]          = fits;
+			const MovablePair  pair { i & Classification::moves ? c.i : ~c.i,
+                                                 j & Classification::moves ? c.j : ~c.j };
+			MovablePair& before     = result.pairs[k];
+			newPairs                = newPairs || pair.i != before.i || pair.j != before.j;
+			before                  = pair;
+			const std::uint8_t fits = blocks && isSimple(c, i, j);
+			newSimple               = newSimple || fits != result.simple[k];
+			plays                   = plays || c.play > 0;
+			result.simple[k]        = fits;
 			jumps = jumps || isMassJump(problem.inverseMass[c.i], problem.inverseMass[c.j], jump);
-			if (!positions || !(i & j & Survey::moves)) continue;
+			if (!positions || !(i & j & Classification::moves)) continue;
 			const Vector d = positions[c.i] - positions[c.j];
 			longestX       = std::max(longestX, std::abs(d.x));
 			longestY       = std::max(longestY, std::abs(d.y));
@@ -127,11 +128,11 @@ namespace {
 
 } // namespace
 
-void survey(const Problem& problem, int threads, bool blocks, Survey& result)
+void classify(const Problem& problem, int threads, bool blocks, Classification& result)
 {
 	checkSizes(problem);
-	surveyBodies(problem, threads, result);
-	surveyContacts(problem, threads, blocks, result);
+	classifyBodies(problem, threads, result);
+	classifyContacts(problem, threads, blocks, result);
 }
 
 } // namespace nonsmooth::contact::space

@@ -1,4 +1,4 @@
-#include "BodyReading.hpp"
+#include "BodyState.hpp"
 #include "PlaneMotion.hpp"
 #include "Prefetch.hpp"
 #include <algorithm>
@@ -6,9 +6,9 @@
 
 namespace yade::nscd {
 
-BodyReading readBody(const Body* body)
+BodyState readBody(const Body* body)
 {
-	BodyReading r {};
+	BodyState r {};
 	r.radius  = -1;
 	r.present = body;
 	if (!body || !body->state) return r;
@@ -29,11 +29,11 @@ BodyReading readBody(const Body* body)
 	return r;
 }
 
-std::vector<FormerSize> readBodies(Scene& scene, int threads, std::vector<BodyReading>& readings)
+std::vector<FormerSize> readBodies(Scene& scene, int threads, std::vector<BodyState>& states)
 {
 	const auto& bodies = *scene.bodies;
 	const long  count  = (long)bodies.size();
-	readings.resize(count);
+	states.resize(count);
 	long                    stateless = -1; // reported after the loop, which must not throw
 	std::vector<FormerSize> changed;
 #pragma omp parallel for schedule(static) num_threads(threads) reduction(max : stateless)
@@ -45,10 +45,10 @@ std::vector<FormerSize> readBodies(Scene& scene, int threads, std::vector<BodyRe
 		}
 		const auto& body = bodies[id];
 		if (body && !body->state) stateless = std::max(stateless, id);
-		const FormerSize former { int(id), readings[id].radius, readings[id].mass, readings[id].inertia };
-		const bool       was = readings[id].present;
-		readings[id]         = readBody(body.get());
-		if (was && readings[id].present && readings[id].radius != former.radius)
+		const FormerSize former { int(id), states[id].radius, states[id].mass, states[id].inertia };
+		const bool       was = states[id].present;
+		states[id]           = readBody(body.get());
+		if (was && states[id].present && states[id].radius != former.radius)
 #pragma omp critical
 			changed.push_back(former);
 	}
@@ -59,10 +59,10 @@ std::vector<FormerSize> readBodies(Scene& scene, int threads, std::vector<BodyRe
 	return changed;
 }
 
-void readMotion(const State& state, BodyReading& reading)
+void readMotion(const State& state, BodyState& result)
 {
-	reading.motion = motionOf(state);
-	reading.z      = state.pos[2];
+	result.motion = motionOf(state);
+	result.z      = state.pos[2];
 }
 
 } // namespace yade::nscd

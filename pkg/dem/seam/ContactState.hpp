@@ -1,7 +1,7 @@
 // What a step takes from one interaction, side by side in memory: geometry and physics of an interaction lie far apart,
 // and to fetch them is most of the work.
 //
-// Readings stay from step to step (seam/Resident.hpp). Those of two disks under our own law are kept up to date by
+// States stay from step to step (seam/Resident.hpp). Those of two disks under our own law are kept up to date by
 // themselves, and their interactions follow when somebody looks; the others are read anew after their functors have
 // been called. Where nobody has looked since it came, such a contact is bare: it has no interaction
 // (seam/ResidentMake.cpp).
@@ -16,7 +16,7 @@
 namespace yade::nscd {
 
 /// Three cache lines: what every stage of a step looks at, what a contact can bear and bears, and the rest.
-struct alignas(64) Reading {
+struct alignas(64) ContactState {
 	/// Who keeps a contact up to date: it has to be looked at; the arrays; functors, through the interaction.
 	enum Keeper : unsigned char { Unknown, Arrays, Functors };
 
@@ -56,7 +56,7 @@ struct alignas(64) Reading {
 	int                                  number
 	        = -1; // of a bare contact's strengths, and of what holds another's interaction, in Resident; −1: none
 
-	Reading()
+	ContactState()
 	        : keeper(Unknown)
 	        , cohesive(false)
 	        , bounces(false)
@@ -81,10 +81,10 @@ struct alignas(64) Reading {
 
 	bool isLost() const { return bare && number < 0; } // ended by a script, and forgotten when contacts are taken
 };
-static_assert(sizeof(Reading) == 3 * 64);
+static_assert(sizeof(ContactState) == 3 * 64);
 
 /// What a bond of two disks needs besides, as NscdPhys has it.
-struct alignas(64) BondReading {
+struct alignas(64) BondState {
 	nonsmooth::contact::plane::BondMarks   marks;
 	nonsmooth::contact::plane::BondEllipse zone;
 };
@@ -110,7 +110,7 @@ inline NscdPhys* physOf(IPhys& phys)
 
 /// Whether a contact's thresholds, restitution and length are what the law knows, false for numbers that are none; and
 /// its normal lies in the plane.
-inline bool makeSense(const Reading& r)
+inline bool makeSense(const ContactState& r)
 {
 	const Real sum = r.adhesion + r.friction + r.rollingArm + r.length;
 	return r.adhesion >= 0 && r.friction >= 0 && r.rollingArm >= 0 && r.length > 0 && r.restitution >= 0
@@ -118,7 +118,7 @@ inline bool makeSense(const Reading& r)
 }
 
 /// Finds the thresholds of a bare contact.
-inline void findThresholds(Reading& r, const nonsmooth::contact::plane::Strengths& strengths, Real adhesionRange)
+inline void findThresholds(ContactState& r, const nonsmooth::contact::plane::Strengths& strengths, Real adhesionRange)
 {
 	namespace plane     = nonsmooth::contact::plane;
 	const auto residual = strengths.residual(r.length);
@@ -133,7 +133,7 @@ inline void findThresholds(Reading& r, const nonsmooth::contact::plane::Strength
 }
 
 /// Takes thresholds and what they rest on from an interaction's physics.
-inline void readThresholds(Reading& r)
+inline void readThresholds(ContactState& r)
 {
 	const NscdPhys& phys = *r.phys;
 	r.adhesion           = phys.adhesion;
@@ -161,9 +161,9 @@ inline Found look(Interaction& i)
 }
 
 /// Reads a real interaction.
-inline void read(const Found& found, Reading& r, BondReading& bond, BondStrain& rest)
+inline void read(const Found& found, ContactState& r, BondState& bond, BondStrain& rest)
 {
-	r             = Reading {};
+	r             = ContactState {};
 	r.interaction = found.interaction;
 	r.geom        = found.geom;
 	r.phys        = physOf(*found.phys);
@@ -210,14 +210,14 @@ inline void read(const Found& found, Reading& r, BondReading& bond, BondStrain& 
 }
 
 /// Notes whether a contact's bodies are turned as one.
-inline void setJoins(Reading& r, bool joins)
+inline void setJoins(ContactState& r, bool joins)
 {
 	r.joins = joins;
-	if (r.keeper != Reading::Arrays) r.phys->joins = joins;
+	if (r.keeper != ContactState::Arrays) r.phys->joins = joins;
 }
 
 /// Writes a contact's reactions into its interaction, whose forces act on its second body.
-inline void writeReactions(const Reading& r)
+inline void writeReactions(const ContactState& r)
 {
 	NscdPhys& phys   = *r.phys;
 	phys.normal      = r.normal;

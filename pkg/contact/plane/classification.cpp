@@ -1,7 +1,7 @@
 #include <algorithm>
 #include <contact/plane/mass_jumps.hpp>
 #include <contact/plane/problem_check.hpp>
-#include <contact/plane/survey.hpp>
+#include <contact/plane/classification.hpp>
 
 namespace nonsmooth::contact {
 namespace {
@@ -10,19 +10,20 @@ namespace {
 	{
 		// a wall that turns enters the velocities through levers too
 		const bool isPlain = m.x == m.y && (m.w != 0 || freeVelocity.w == 0);
-		return (m.w != 0 ? Survey::turns : 0) | (isPlain ? Survey::plain : 0)
-		        | (m.isFixed() ? 0 : Survey::moves);
+		return (m.w != 0 ? Classification::turns : 0) | (isPlain ? Classification::plain : 0)
+		        | (m.isFixed() ? 0 : Classification::moves);
 	}
 
 	/// Whether the short formulas of the blocks hold: no rows coupled but T and Γ, no bias but the normal one.
 	bool isSimple(const Contact& c, std::uint8_t i, std::uint8_t j)
 	{
-		return (i & j & Survey::plain) && c.biasT == 0 && c.biasR == 0
-		        && (!(i & Survey::turns) || c.leverNi == 0) && (!(j & Survey::turns) || c.leverNj == 0);
+		return (i & j & Classification::plain) && c.biasT == 0 && c.biasR == 0
+		        && (!(i & Classification::turns) || c.leverNi == 0)
+		        && (!(j & Classification::turns) || c.leverNj == 0);
 	}
 
 	/// Traits of bodies and where they are. Refuses what cannot be used.
-	void surveyBodies(const Problem& problem, int threads, Survey& result)
+	void classifyBodies(const Problem& problem, int threads, Classification& result)
 	{
 		const long count     = static_cast<long>(problem.bodyCount());
 		const bool hasPlaces = !problem.positions.empty();
@@ -65,7 +66,7 @@ namespace {
 	}
 
 	/// Pairs of contacts, how long they are, and whether they fit into blocks. Refuses what cannot be used.
-	void surveyContacts(const Problem& problem, int threads, bool blocks, Survey& result)
+	void classifyContacts(const Problem& problem, int threads, bool blocks, Classification& result)
 	{
 		const long   count     = static_cast<long>(problem.contactCount());
 		const auto   bodies    = static_cast<std::int32_t>(problem.bodyCount());
@@ -87,16 +88,17 @@ namespace {
 				continue;
 			}
 			const std::uint8_t i = result.traits[c.i], j = result.traits[c.j];
-			const MovablePair  pair { i & Survey::moves ? c.i : ~c.i, j & Survey::moves ? c.j : ~c.j };
-			MovablePair&       before = result.pairs[k];
-			newPairs                  = newPairs || pair.i != before.i || pair.j != before.j;
-			before                    = pair;
-			const std::uint8_t fits   = blocks && isSimple(c, i, j);
-			newSimple                 = newSimple || fits != result.simple[k];
-			plays                     = plays || c.play > 0;
-			result.simple[k]          = fits;
+			const MovablePair  pair { i & Classification::moves ? c.i : ~c.i,
+                                                 j & Classification::moves ? c.j : ~c.j };
+			MovablePair& before     = result.pairs[k];
+			newPairs                = newPairs || pair.i != before.i || pair.j != before.j;
+			before                  = pair;
+			const std::uint8_t fits = blocks && isSimple(c, i, j);
+			newSimple               = newSimple || fits != result.simple[k];
+			plays                   = plays || c.play > 0;
+			result.simple[k]        = fits;
 			jumps = jumps || isMassJump(problem.inverseMass[c.i], problem.inverseMass[c.j], jump);
-			if (!positions || !(i & j & Survey::moves)) continue;
+			if (!positions || !(i & j & Classification::moves)) continue;
 			longestX = std::max(longestX, std::abs(positions[c.i].x - positions[c.j].x));
 			longestY = std::max(longestY, std::abs(positions[c.i].y - positions[c.j].y));
 		}
@@ -111,11 +113,11 @@ namespace {
 
 } // namespace
 
-void survey(const Problem& problem, int threads, bool blocks, Survey& result)
+void classify(const Problem& problem, int threads, bool blocks, Classification& result)
 {
 	checkSizes(problem);
-	surveyBodies(problem, threads, result);
-	surveyContacts(problem, threads, blocks, result);
+	classifyBodies(problem, threads, result);
+	classifyContacts(problem, threads, blocks, result);
 }
 
 } // namespace nonsmooth::contact

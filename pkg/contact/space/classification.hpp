@@ -1,7 +1,7 @@
-// A look at every body and contact of a problem in space before a solve; contact/core/survey.hpp says what for.
+// A look at every body and contact of a problem in space before a solve; contact/core/classification.hpp says what for.
 #pragma once
 
-#include <contact/core/survey.hpp>
+#include <contact/core/classification.hpp>
 #include <contact/space/problem.hpp>
 
 namespace nonsmooth::contact::space {
@@ -14,6 +14,6 @@ inline Coordinates coordinatesOf(const Problem& problem)
 
 /// As in the plane. Contacts of balls fit into blocks, and so do those of a ball with a body that is fixed or whose
 /// motion is given.
-void survey(const Problem& problem, int threads, bool blocks, Survey& result);
+void classify(const Problem& problem, int threads, bool blocks, Classification& result);
 
 } // namespace nonsmooth::contact::space

@@ -1,7 +1,7 @@
-// The look at bodies and contacts of a problem in the plane; what it finds stands in core/survey.hpp.
+// The look at bodies and contacts of a problem in the plane; what it finds stands in core/classification.hpp.
 #pragma once
 
-#include <contact/core/survey.hpp>
+#include <contact/core/classification.hpp>
 #include <contact/plane/problem.hpp>
 
 namespace nonsmooth::contact {
@@ -15,6 +15,6 @@ inline Coordinates coordinatesOf(const Problem& problem)
 /// Looks with so many threads; without `blocks` no contact fits into them. Throws std::invalid_argument naming the
 /// first size, body or contact that cannot be used, and why; whatever `result` holds then is no last look for the next
 /// one.
-void survey(const Problem& problem, int threads, bool blocks, Survey& result);
+void classify(const Problem& problem, int threads, bool blocks, Classification& result);
 
 } // namespace nonsmooth::contact
