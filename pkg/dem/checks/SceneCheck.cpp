@@ -15,6 +15,7 @@
 #include <map>
 #include <set>
 #include <typeindex>
+#include <pkg/dem/TriaxialStressController.hpp>
 #include <unordered_set>
 
 namespace yade::nscd {
@@ -68,16 +69,24 @@ namespace {
 			     "densityScaling=False (rigid contacts do not need it)");
 	}
 
+	/// A triaxial controller that measures alone, and moves walls by rates of strain: with max_vel = 0 no stress moves
+	/// one. harden() leaves it so, and loads walls itself.
+	bool steersNoStress(const Engine& engine)
+	{
+		const auto* controller = dynamic_cast<const TriaxialStressController*>(&engine);
+		return controller && controller->max_vel == 0 && engine.getClassName() != "ThreeDTriaxialEngine";
+	}
+
 	/// Engines of YADE's that steer by what rigid contacts and flat scenes have not, with what does their work; by
 	/// name, since not every YADE has all of them.
-	void refuseController(const Engine& engine)
+	void refuseController(const Scene& scene, const Engine& engine)
 	{
 		thread_local std::unordered_set<std::type_index>
 		        others; // classes that are none of these: a name costs more than a type
 		if (others.count(typeid(engine))) return;
 		static const string stress
 		        = " moves walls by the stiffness of their contacts, and rigid contacts have none, so that walls would "
-		          "go to and fro at max_vel: load plates instead (yade.nonsmooth.scene.plate), set the state.vel of "
+		          "go to and fro at max_vel: load plates instead (yade.nonsmooth.scene.plate, or in space harden(), which does so), set the state.vel of "
 		          "walls that are to move at a given rate, or shear a sample by scripts/biaxial.py";
 		static const string lid
 		        = " holds the load on its lid by the stiffness of the contacts, and rigid contacts have none, so that "
@@ -102,6 +111,12 @@ namespace {
 			{ "Peri3dController", &cell },
 			{ "TriaxialStateRecorder", &record },
 		};
+		if (steersNoStress(engine)) return;
+		if (engine.getClassName() == "TriaxialStateRecorder"
+		    && std::any_of(scene.engines.begin(), scene.engines.end(), [](const auto& one) {
+			       return steersNoStress(*one);
+		       }))
+			return;
 		if (const auto found = refused.find(engine.getClassName()); found != refused.end())
 			fail(named(engine) + *found->second);
 		others.insert(typeid(engine));
@@ -260,7 +275,7 @@ void refuseEarly(const Scene& scene, const char* who)
 {
 	for (const auto& engine : scene.engines) {
 		if (engine->dead) continue;
-		refuseController(*engine);
+		refuseController(scene, *engine);
 		if (dynamic_cast<const DomainLimiter*>(engine.get()))
 			throw std::runtime_error(
 			        string(who) + ": O.engines has a " + named(*engine)

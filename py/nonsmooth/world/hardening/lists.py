@@ -24,6 +24,7 @@ from yade.wrapper import (
 )
 
 from .. import space
+from . import triaxial
 from .error import HardenError
 
 __all__ = ["hard_engines", "loop_of", "newton_of"]
@@ -92,7 +93,7 @@ def hard_engines(engines, shapes, in_plane, options):
         )
     touched = {kind: functors for kind, functors in _SHAPES.items() if kind in shapes or kind is Sphere}
     newton = newton_of(engines)
-    made, rows = [], []
+    made, rows, behind = [], [], []  # behind: what measures after the integrator
     if not any(isinstance(e, ForceResetter) and not e.dead for e in engines):
         made.append(ForceResetter())
     for engine in engines:
@@ -111,13 +112,23 @@ def hard_engines(engines, shapes, in_plane, options):
                 rows.append(("no contacts of spheres with spheres", "stays so"))
             laws = ", ".join(type(law).__name__ for law in engine.lawDispatcher.functors)
             rows.append((f"{name} ({laws})", "NscdInteractionLoop (Law2_ScGeom_NscdPhys_SignoriniCoulomb)"))
+        elif type(engine).__name__ in (*triaxial.KINDS, triaxial.RECORDER):
+            behind.append(engine)
+            if engine is triaxial.controller_of(engines):
+                rows.append((name, _triaxial(engine)))
         elif isinstance(engine, DomainLimiter):
             made.append(_limiter(engine))
             rows.append((name, "PyRunner, which erases the same bodies"))
         elif engine is newton:
             damping = engine.damping
             usual = {"label": "contactDynamics"} | ({} if in_plane else {"openGap": space.OPEN_GAP})
-            made += [ContactDynamicsEngine(**{**usual, **options}), _integrator(engine, in_plane)]
+            press, hold = [], []
+            if steered := triaxial.controller_of(engines):
+                before, after = triaxial.commands(steered.max_vel)
+                press, hold = ([PyRunner(command=c, iterPeriod=1, initRun=True)] for c in (before, after))
+                steered.max_vel = 0
+            made += [*press, ContactDynamicsEngine(**{**usual, **options}), _integrator(engine, in_plane), *hold]
+            integrated = len(made)
             rows.append(
                 (
                     f"{name} (damping = {damping:g})",
@@ -126,7 +137,13 @@ def hard_engines(engines, shapes, in_plane, options):
             )
         else:
             made.append(engine)
+    made[integrated:integrated] = behind
     return made, rows
+
+
+def _triaxial(engine):
+    grown = ", which press in the place of growing spheres" if engine.internalCompaction else ""
+    return f"measures behind the integrator; walls under a stress are plates that bear it{grown}"
 
 
 def _meet(loop):

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import functools
+import math
 import textwrap
 
 import numpy as np
@@ -11,7 +12,7 @@ from tabulate import tabulate
 from yade.wrapper import ContactDynamicsEngine, NewtonIntegrator, NscdMat, PeriodicEngine, PyRunner, Sphere
 
 from .. import space
-from . import belts
+from . import belts, triaxial
 from .energies import hear_energies
 from .error import HardenError
 from .lists import hard_engines, loop_of, newton_of
@@ -138,6 +139,8 @@ def harden(O, step=None, restitution=None, **options):
         if command:
             engines.append(PyRunner(command=command, iterPeriod=1, initRun=True))
         next(e for e in engines if isinstance(e, NewtonIntegrator) and not e.dead).mask = -1
+    if steered := triaxial.controller_of(engines):
+        triaxial.measure_often(steered, step / soft_step)
     O.engines = engines
     O.dt = step
     rows = told + rows + _keep_periods(engines, soft_step, step)
@@ -173,6 +176,9 @@ def _step(O, bodies, moving):
         if not e.dead
     ]
     speeds += [e.vMax for e in O.engines if hasattr(e, "vMax") and not e.dead]
+    if steered := triaxial.controller_of(O.engines):
+        densities = [b.material.density for b in moving if b.material.density > 0]
+        speeds.append(triaxial.speed_of(steered, min(densities, default=math.inf)))
     return hard_step(radii, speeds, newton.gravity, low, high, O.dt)
 
 
