@@ -3,7 +3,7 @@
 
   scripts/benchmark.py [--out DIR] [--quick] [--threads T] [--disks N] [--section FILE]
   scripts/benchmark.py --scale [N,N,…] [--out DIR] [--threads T] [--section FILE]
-  scripts/benchmark.py --space [--out DIR] [--quick]
+  scripts/benchmark.py --space [N,N,…] [--out DIR] [--quick] [--threads T]
 """
 import os, sys
 
@@ -17,10 +17,10 @@ from pathlib import Path
 
 from yade.nonsmooth import commands
 from yade.nonsmooth.commands import arguments
-from yade.nonsmooth.judges.benchmark import report, scale, spheres, suite
+from yade.nonsmooth.judges.benchmark import report, scale, space_report, space_suite, suite
 from yade.nonsmooth.judges.benchmark.scale_figure import cost_by_size
 from yade.nonsmooth.studies.slope import states
-from yade.nonsmooth.system import machine, output_folder
+from yade.nonsmooth.system import output_folder
 from yade.nonsmooth.system.whole_files import write_json
 
 
@@ -40,7 +40,7 @@ def read_arguments():
     )
     parser.add_argument(
         "--scale",
-        type=sizes,
+        type=sizes("disks"),
         nargs="?",
         const=scale.SIZES,
         metavar="N,…",
@@ -48,8 +48,11 @@ def read_arguments():
     )
     parser.add_argument(
         "--space",
-        action="store_true",
-        help="instead, sweeps over 20,000 spheres beside those over disks: a minute or two",
+        type=sizes("spheres"),
+        nargs="?",
+        const=space_suite.SIZES,
+        metavar="N,…",
+        help=f"instead, spheres in space: sweeps, steps beside soft ones, and a hundred steps of beds of so many (default: {','.join(map(str, space_suite.SIZES))})",
     )
     args = parser.parse_args()
     if args.space and args.scale:
@@ -59,14 +62,19 @@ def read_arguments():
     return args
 
 
-def sizes(text):
-    try:
-        values = [int(part) for part in text.split(",")]
-    except ValueError:
-        values = [0]
-    if min(values) < 1 or len(set(values)) < len(values):
-        raise argparse.ArgumentTypeError(f"{text!r}: give numbers of disks, separated by commas, each once")
-    return values
+def sizes(grains):
+    """Type of numbers of ``grains``, in words, with commas between them."""
+
+    def read(text):
+        try:
+            values = [int(part) for part in text.split(",")]
+        except ValueError:
+            values = [0]
+        if min(values) < 1 or len(set(values)) < len(values):
+            raise argparse.ArgumentTypeError(f"{text!r}: give numbers of {grains}, separated by commas, each once")
+        return values
+
+    return read
 
 
 def measure_scale(args, out):
@@ -79,11 +87,13 @@ def measure_scale(args, out):
     print(f"results: {out}/scale.json, {cost_by_size(found['sizes'], out / 'scale.png').name}")
 
 
-def measure_space(args, out):
-    found = spheres.headlines(spheres.measure((suite.QUICK if args.quick else suite.FULL).repeats))
-    write_json(out / "space.json", {**found, "machine": machine.describe(), "quick": args.quick})
-    print(report.space_table(found))
-    print(f"results: {out}/space.json")
+def measure_space(args, out, began):
+    with arguments.bar() as progress:
+        found = space_suite.run(out, args.space, args.threads, suite.QUICK if args.quick else suite.FULL, progress)
+    summary = space_report.summarise({**found, "quick": args.quick, "wall_s": time.monotonic() - began})
+    report.keep(out / "benchmark.json", summary, space=True)
+    print(space_report.table(summary))
+    print(f"{summary['space']['wall_s']:.0f} s of wall time; results: {out}/benchmark.json")
 
 
 def main():
@@ -93,14 +103,14 @@ def main():
     if args.scale:
         return measure_scale(args, out)
     if args.space:
-        return measure_space(args, out)
+        return measure_space(args, out, began)
     states.section_of(args.section, args.disks)  # refused before anything runs
     with arguments.bar() as progress:
         found = suite.run(
             out, args.section, args.disks, args.threads, suite.QUICK if args.quick else suite.FULL, progress
         )
     summary = {**report.summarise(found), "quick": args.quick, "wall_s": time.monotonic() - began}
-    write_json(out / "benchmark.json", summary)
+    report.keep(out / "benchmark.json", summary, space=False)
     print(report.table(summary))
     print(f"{summary['wall_s']:.0f} s of wall time; results: {out}/benchmark.json")
 

@@ -126,8 +126,8 @@ def main():
     args = read_arguments()
     out = Path(args.out)
     cases = cases_of(args)
-    for scene, world in cases.values():  # before anything is computed
-        grains.world_of(scene, **world)
+    for name, (scene, world) in cases.items():  # before anything is computed
+        study.planned(name, out / name, scene, world, args.duration)
     output_folder.claim(out, "spheres.py", args.resume)
     words = f"{len(cases)} run{'s' if len(cases) > 1 else ''}"
     with arguments.bar() as progress:

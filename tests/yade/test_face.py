@@ -2,6 +2,7 @@
 
 import ast
 import dataclasses
+import importlib.util
 import json
 import re
 import subprocess
@@ -12,6 +13,7 @@ import pytest
 import shell
 from slope_scenes import SMALL
 from shell import ROOT
+from yade import nonsmooth
 from yade.nonsmooth import records, runs, section, similar
 from yade.nonsmooth.model import scales
 from yade.nonsmooth.model.section import data as section_data
@@ -292,6 +294,14 @@ def test_a_slope_of_ones_own_in_some_lines(tmp_path):
         and run.summary["water_at_failure_m"] > 0.5
         and run.summary["front_travel_m"] > 5
     )
+
+
+def test_every_package_of_the_face_says_what_is_public():
+    for name in (*nonsmooth.FACE, *nonsmooth.__all__):
+        module = importlib.import_module(f"yade.nonsmooth.{name}") if name != "harden" else nonsmooth
+        assert module.__all__, name
+        for one in module.__all__:
+            assert hasattr(module, one) or importlib.util.find_spec(f"{module.__name__}.{one}"), (name, one)
 
 
 def test_the_page_of_the_package_begins_with_what_people_build_on():

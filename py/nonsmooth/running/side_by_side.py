@@ -20,7 +20,7 @@ from ..system.whole_files import WriteError, empty
 from . import kept_runs, processes
 from .interrupts import Interrupted
 
-__all__ = ["Run", "check", "folder_of", "run"]
+__all__ = ["Run", "check", "check_folders", "folder_of", "run"]
 
 LOOK_SECONDS = 1.0  # between two looks at how far the runs are
 
@@ -49,6 +49,28 @@ def check(runs, error=processes.RunError, advice=""):
         raise error(f"{', '.join(sorted(folder.name for folder in twice))}: two runs of one name{advice}")
 
 
+def check_folders(runs, resume, error, go_on=False):
+    """Raises ``error``, a class, where the folder of one of the Runs holds what no run has left there, or the checkpoint
+    of a run that was halted, from which this one would not go on; arguments as of :func:`run`.
+    """
+    for r in runs:
+        found = kept_runs.foreign(r.folder, output_folder.LOCK)
+        if found is not None:
+            raise error(
+                f"{r.folder}: holds {found}, which no run has left there, and a run empties its folder; give an empty folder, a new one, or that of an earlier run"
+            )
+        if not go_on or not checkpoints.exists(r.folder) or (r.folder / "result.json").exists():
+            continue
+        if not resume:
+            raise error(
+                f"{r.folder}: holds a run that was halted, with its checkpoint, which a new run would remove; go on with it with --resume, or give another --out"
+            )
+        if "input" in (kept_runs.changed(r.folder, r.key, r.function) or ()):
+            raise error(
+                f"{r.folder}: holds a run of other parameters that was halted; give the same ones, or another --out"
+            )
+
+
 def folder_of(out, name, error):
     """The folder of a run below ``out``. Raises ``error``, a class, for a name that is no name of a folder in it."""
     if not isinstance(name, str) or not name or name in (".", "..") or Path(name).name != name:
@@ -63,8 +85,8 @@ def run(
     order of ``runs``, each with ``process_wall_s``: wall time of its process [s].
 
     ``resume``: keep what has ended; ``go_on``: keep also what halted runs of the same input, engines and code have
-    written, since their function goes on from it. All else in the folders is removed; a folder that is not empty and
-    has no run in it is refused. ``progress``: called about once a second with the share done of all work, and how many
+    written, since their function goes on from it. All else in the folders is removed, but what
+    :func:`check_folders` refuses. ``progress``: called about once a second with the share done of all work, and how many
     runs have ended. Raises ``error``, a class, before anything runs where Runs share a folder, and with the first
     failure (in the order of ``runs``) and the ``advice`` after the others have ended; interrupts.Interrupted after
     Ctrl-C.
@@ -72,12 +94,7 @@ def run(
     runs = list(runs)
     check(runs, error)
     known = {r.folder: kept_runs.kept(r.folder, r.key, r.function) if resume else None for r in runs}
-    for r in runs:
-        found = kept_runs.foreign(r.folder, output_folder.LOCK)
-        if known[r.folder] is None and found is not None:
-            raise error(
-                f"{r.folder}: holds {found}, which no run has left there, and a run empties its folder; give an empty folder, a new one, or that of an earlier run"
-            )
+    check_folders([r for r in runs if known[r.folder] is None], resume, error, go_on)
     for r in runs:
         if known[r.folder] is None:
             kept_runs.forget(r.folder)

@@ -7,7 +7,7 @@ import os
 import platform
 from pathlib import Path
 
-__all__ = ["describe"]
+__all__ = ["describe", "resident_bytes"]
 
 
 def describe() -> dict:
@@ -28,6 +28,12 @@ def describe() -> dict:
         "load_average": list(os.getloadavg()),
         "date": datetime.datetime.now().astimezone().isoformat(timespec="seconds"),
     }
+
+
+def resident_bytes() -> int:
+    """Memory of this process that is in use [byte]."""
+    with open("/proc/self/statm") as file:
+        return int(file.read().split()[1]) * os.sysconf("SC_PAGE_SIZE")
 
 
 def _cpu_model():

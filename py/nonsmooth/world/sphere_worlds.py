@@ -25,6 +25,8 @@ from ..system import checks
 __all__ = ["HardSpheres", "SoftSpheres", "SphereMaterial", "SphereWorldError", "stable_step"]
 
 NEIGHBOURS = 12  # of a sphere among others of its size
+STIFFEST = 1e15  # Pa, a thousand times that of diamond; with much more squares of frequencies overflow
+LARGEST_RATIO = 1e3  # of stiffnesses, for the same reason
 
 
 class SphereWorldError(UserError, ValueError):
@@ -108,9 +110,12 @@ class SoftSpheres:
     name = "soft"
 
     def __post_init__(self):
-        for name in ("stiffness", "shear_ratio"):
-            checks.number(name, getattr(self, name), SphereWorldError, "give a number above 0", above=0)
-        checks.number("rolling_ratio", self.rolling_ratio, SphereWorldError, "give 0 or more", least=0)
+        remedy = f"give a number above 0, to {STIFFEST:g} at most [Pa]"
+        checks.number("stiffness", self.stiffness, SphereWorldError, remedy, above=0, most=STIFFEST)
+        remedy = f"give a number above 0, to {LARGEST_RATIO:g} at most"
+        checks.number("shear_ratio", self.shear_ratio, SphereWorldError, remedy, above=0, most=LARGEST_RATIO)
+        remedy = f"give 0 or more, to {LARGEST_RATIO:g} at most"
+        checks.number("rolling_ratio", self.rolling_ratio, SphereWorldError, remedy, least=0, most=LARGEST_RATIO)
         remedy = "give a number from 0 to less than 1"
         checks.number("damping", self.damping, SphereWorldError, remedy, least=0, below=1)
         remedy = "the time step in units of its stability limit; give a number above 0, to 1 at most"

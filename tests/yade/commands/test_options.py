@@ -14,7 +14,7 @@ from shell import SCRIPTS
 from slope_scenes import SMALL
 from yade.nonsmooth import campaign as campaigns, errors, experiment, lessons, packing, section
 from yade.nonsmooth.heaps import study
-from yade.nonsmooth.judges.benchmark import scale, spheres, suite
+from yade.nonsmooth.judges.benchmark import scale, space_suite, suite
 from yade.nonsmooth.judges.verification import runner, soak
 from yade.nonsmooth.laboratory import calibration, campaign, effects, rock_table, table1, tension_campaign, wall_shear
 from yade.nonsmooth.slip import block
@@ -100,7 +100,7 @@ HOLDER = {  # what a command asks: a module or class, and its function
 OTHERS = {
     ("compare_hard_soft.py", "--cost"): (cost, "run"),
     ("benchmark.py", "--scale"): (scale, "run"),
-    ("benchmark.py", "--space"): (spheres, "measure"),
+    ("benchmark.py", "--space"): (space_suite, "run"),
     ("jiufengershan.py", "--resume"): (experiment, "resume"),
     ("slope.py", "--resume"): (experiment, "resume"),
     **{
@@ -369,7 +369,7 @@ WHERE = {
         "--threads": (("--threads", 7), lambda a: a.words[3], 7),
         "--quick": (("--quick",), lambda a: a.words[4], suite.QUICK),
         "--scale": (("--scale", "2000,3000"), lambda a: a.words[2], [2000, 3000]),
-        "--space": (("--space", "--quick"), lambda a: a.words[0], suite.QUICK.repeats),
+        "--space": (("--space", "2000,3000"), lambda a: a.words[1], [2000, 3000]),
     },
     "soak.py": {
         "--disks": (("--disks", 61), lambda a: a.words[0], 61),
@@ -704,6 +704,7 @@ def test_checks_are_listed(in_process):
         ("wedge.py", ("--seconds", 0.5), "--seconds: 0.5 is too short"),
         ("benchmark.py", ("--threads", 0), "--threads 0"),
         ("benchmark.py", ("--scale", "10,10"), "each once"),
+        ("benchmark.py", ("--space", "10,0"), "give numbers of spheres"),
         ("benchmark.py", ("--space", "--scale", "10"), "--space --scale: give one of them"),
         ("column.py", ("--aspect", "1,1"), "give each number once"),
         (

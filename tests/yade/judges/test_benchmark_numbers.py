@@ -194,6 +194,25 @@ def test_a_block_of_steps_is_divided_by_their_number(monkeypatch):
     assert timed.summary()["step_ms"]["median"] == pytest.approx(100.0)
 
 
+def test_a_stage_that_the_solvers_clock_does_not_know_has_yades_timer(monkeypatch):
+    """In space YADE's own engines search and integrate, and the clock has 0 for them; what it has counts once."""
+    search, loop = SimpleNamespace(execTime=0), SimpleNamespace(execTime=0)
+    solver = SimpleNamespace(stageSeconds={"collide": 0.0, "interactions": 1.0}, bodyTable=lambda: None)
+
+    def advance(count, **others):
+        search.execTime += 2_000_000 * count
+        loop.execTime += 4_000_000 * count
+        now = solver.stageSeconds["interactions"]
+        solver.stageSeconds = {"collide": 0.0, "interactions": now + 3e-3 * count}
+
+    monkeypatch.setattr(steps, "advance", advance)
+    timed = object.__new__(steps.TimedSteps)
+    timed.engines, timed.solver, timed.rows = [(search, "collide"), (loop, "interactions")], solver, []
+    (row,) = timed.run(10, warm_up=0).rows
+    assert (row["collide"], row["interactions"]) == pytest.approx((2e-3, 3e-3))
+    assert row["other"] == pytest.approx(row["step"] - 5e-3)
+
+
 # ---- how far it is ----------------------------------------------------------------------------------
 
 

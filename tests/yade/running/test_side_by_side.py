@@ -112,6 +112,36 @@ def test_a_resume_takes_nothing_of_other_engines_or_code(tmp_path, called, monke
     assert called == ["a", "a"]  # of these
 
 
+def test_a_halted_run_is_not_removed_by_another(tmp_path, called):
+    """One that has a checkpoint, for functions that go on from it; what has ended, or has none, is made anew."""
+
+    def halted(key, *files):
+        kept_runs.begin(tmp_path / "a", key, print)
+        (tmp_path / "a" / "checkpoint").mkdir(exist_ok=True)
+        for name in ("checkpoint/checkpoint.json", *files):
+            (tmp_path / "a" / name).write_text("{}")
+
+    (tmp_path / "a").mkdir()
+    halted("k")
+    for key, resume, said in (
+        ("k", False, "a: holds a run that was halted, .*--resume, or give another --out"),
+        ("other", False, "a: holds a run that was halted"),
+        ("other", True, "a: holds a run of other parameters that was halted; give the same ones, or another --out"),
+    ):
+        with pytest.raises(MadeUpError, match=said):
+            side_by_side.run(made(tmp_path, "b", "a", key=key), 1, resume, MadeUpError, go_on=True)
+        assert called == [] and (tmp_path / "a" / "checkpoint" / "checkpoint.json").exists()
+    side_by_side.run(made(tmp_path, "a"), 1, True, MadeUpError, go_on=True)
+    assert called == ["a"]
+    halted("k", "result.json")
+    side_by_side.run(made(tmp_path, "a"), 1, False, MadeUpError, go_on=True)
+    assert called == ["a", "a"]
+    (tmp_path / "a" / "result.json").unlink()
+    halted("k")
+    side_by_side.run(made(tmp_path, "a"), 1, False, MadeUpError)
+    assert called == ["a", "a", "a"]
+
+
 def test_clearing_a_folder_leaves_the_lock_of_who_holds_it(tmp_path, called):
     output_folder.claim(tmp_path / "a", "a command")
     (tmp_path / "a" / "old" / "deep").mkdir(parents=True)

@@ -9,7 +9,7 @@ from shell import SCRIPTS
 from yade import O, geom
 from yade.minieigenHP import Quaternion, Vector3
 from yade.nonsmooth import harden
-from yade.nonsmooth.world.hardening import HardenError, lists, steps, strengths
+from yade.nonsmooth.world.hardening import HardenError, comparison, lists, steps, strengths
 from yade.utils import PWaveTimeStep, box, createInteraction, facet, sphere, wall
 from yade.wrapper import (
     Bo1_Box_Aabb,
@@ -538,6 +538,18 @@ def test_a_script_of_chance_draws_the_same_in_both_runs_and_is_measured_before_i
     # a free fall: g t²/2, less a fifth for the integrator's damping of springs; half a step early or late
     assert float(way[1]) == pytest.approx(0.5 * 9.81 * 0.05**2, rel=0.15)
     assert float(way[0]) == pytest.approx(0.8 * 0.5 * 9.81 * 0.05**2, rel=0.15)
+
+
+def test_the_kinetic_energy_that_is_told_has_that_of_turning():
+    """Of a body that lies askew too, whose inertia is about its own axes: it turns about its second."""
+    body = O.bodies[O.bodies.append(sphere((0, 0, 0), 0.5))]
+    body.state.mass, body.state.inertia = 3.0, (1.0, 4.0, 9.0)
+    body.state.vel, body.state.angVel = (2.0, 0, 0), (0.5, 0, 0)
+    body.state.ori = Quaternion((0, 0, 1), math.pi / 2)
+    O.bodies.append(sphere((9, 0, 0), 0.5, fixed=True))
+    O.bodies[1].state.vel = (7.0, 0, 0)
+    told = comparison._measured(O)["kinetic energy [J]"]
+    assert told == pytest.approx(0.5 * 3 * 4 + 0.5 * 4 * 0.25, rel=1e-12)
 
 
 def test_a_scene_that_is_rigid_is_not_hardened_again():

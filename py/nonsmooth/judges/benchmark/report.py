@@ -2,11 +2,14 @@
 
 from __future__ import annotations
 
+import json
+from pathlib import Path
+
 from tabulate import tabulate
 
-from . import spheres
+from ...system.whole_files import write_json
 
-__all__ = ["HEADLINES", "scale_table", "space_table", "summarise", "table"]
+__all__ = ["HEADLINES", "keep", "number", "scale_table", "summarise", "table", "with_quartiles"]
 
 #: Headline figures, by their keys one in the other, and what each is; medians where there is a distribution. Steps are
 #: of the slope at rest, with as many threads as were asked for.
@@ -73,37 +76,51 @@ def summarise(found) -> dict:
     }
 
 
+def keep(path, summary, space):
+    """Writes ``benchmark.json``. What was measured in ``space``, whose names begin so, stands in it beside what was
+    measured of a slope: either leaves what an earlier run has written of the other.
+    """
+    try:
+        before = json.loads(Path(path).read_text())
+    except (OSError, ValueError):
+        before = None
+    others = before.items() if isinstance(before, dict) else ()
+    write_json(path, {**{name: value for name, value in others if name.startswith("space") != space}, **summary})
+
+
 def _at(summary, name):
     for key in name.split("/"):
         summary = summary[key]
     return summary
 
 
-def _number(value):
+def number(value) -> str:
+    """A number as tables have it."""
     return f"{value:.4g}"
 
 
-def _with_quartiles(spread):
+def with_quartiles(spread) -> str:
+    """A median and its quartiles, see statistics.spread."""
     return "{:.3g} ({:.3g} … {:.3g})".format(spread["median"], *spread["quartiles"])
 
 
 def table(summary) -> str:
     """Tables of text: headlines, steps by stage, sweeps by path, cold starts."""
     rows = [
-        (what, _number(_at(summary, name)), " … ".join(map(_number, summary["quartiles"].get(name, ()))))
+        (what, number(_at(summary, name)), " … ".join(map(number, summary["quartiles"].get(name, ()))))
         for name, what in HEADLINES.items()
     ]
     parts = [tabulate(rows, ("", "", "quartiles"), disable_numparse=True)]
     steps = [(f"{m['state']}, {m['threads']} thr.", m) for m in summary["steps"]]
     stages = list(steps[0][1]["stage_ms"])
-    rows = [("step", *(_with_quartiles(m["step_ms"]) for _, m in steps))]
+    rows = [("step", *(with_quartiles(m["step_ms"]) for _, m in steps))]
     # a stage that works in some steps only, as the collider does, shows in the mean alone
     rows += [
-        (f"{name}, mean", *(_number(m["stage_ms"][name]["mean"]) if name in m["stage_ms"] else "-" for _, m in steps))
+        (f"{name}, mean", *(number(m["stage_ms"][name]["mean"]) if name in m["stage_ms"] else "-" for _, m in steps))
         for name in stages
     ]
     rows += [
-        (name, *(_number(m[key]) if key in m else "-" for _, m in steps))
+        (name, *(number(m[key]) if key in m else "-" for _, m in steps))
         for name, key in (("sweeps, mean", "sweeps_mean"), ("contacts", "contacts"), ("candidates", "candidates"))
     ]
     parts.append(tabulate(rows, ("[ms]", *(name for name, _ in steps)), disable_numparse=True))
@@ -111,8 +128,8 @@ def table(summary) -> str:
     rows = [
         (
             name.replace("_", " "),
-            _with_quartiles(s),
-            _with_quartiles(found["speedup_over_reference"][name]) if name != "reference" else "1",
+            with_quartiles(s),
+            with_quartiles(found["speedup_over_reference"][name]) if name != "reference" else "1",
         )
         for name, s in found["ns_per_contact"].items()
     ]
@@ -158,10 +175,10 @@ def scale_table(found) -> str:
             f"{1e-3 * s['bytes_per_contact_viewed']:.2f}",
             f"{1e-3 * s['bytes_per_disk']:.2f}",
             f"{1e-3 * s['soft_memory']['bytes_per_disk']:.2f}" if "soft_memory" in s else "-",
-            _with_quartiles(s["step_ms"]),
-            _number(s["sweeps_mean"]),
-            _with_quartiles(s["sweep_ns_per_contact"]["1"]),
-            _with_quartiles(s["sweep_ns_per_contact"][threads]),
+            with_quartiles(s["step_ms"]),
+            number(s["sweeps_mean"]),
+            with_quartiles(s["sweep_ns_per_contact"]["1"]),
+            with_quartiles(s["sweep_ns_per_contact"][threads]),
             str(s["cold_start"]["sweeps"]) if "cold_start" in s else "-",
         )
         for s in found["sizes"]
@@ -182,21 +199,3 @@ def scale_table(found) -> str:
         "cold sweeps to 1e-4",
     )
     return tabulate(rows, heads, disable_numparse=True)
-
-
-def space_table(found) -> str:
-    """Tables of text of what spheres.headlines found: headlines, and sweeps by path."""
-    rows = [(what, _number(found[name])) for name, what in spheres.HEADLINES.items()]
-    over = found["speedup_over_reference"]
-    paths = [
-        (name.replace("_", " "), _with_quartiles(s), _with_quartiles(over[name]) if name in over else "-")
-        for name, s in found["ns_per_contact"].items()
-    ]
-    return "\n\n".join(
-        [
-            tabulate(rows, disable_numparse=True),
-            tabulate(paths, ("sweep", "ns a contact", "over reference"), disable_numparse=True),
-            f"{found['spheres']} spheres, {found['contacts']} contacts of {found['bytes_per_contact']:.0f} bytes; "
-            f"{found['contacts_plane']} in the plane; the cold start carries {found['share_of_weight']:.3f} of the weight",
-        ]
-    )

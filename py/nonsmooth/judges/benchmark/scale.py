@@ -10,7 +10,6 @@ measured beside it.
 from __future__ import annotations
 
 import dataclasses
-import os
 import time
 from pathlib import Path
 
@@ -38,12 +37,6 @@ SOFT_DISKS = 100_000  # of the largest slope of soft contacts: their bonds are m
 SOFT_YOUNG = 1e9  # Pa; of no influence on memory
 
 
-def _resident():
-    """Memory of this process [byte]."""
-    with open("/proc/self/statm") as file:
-        return int(file.read().split()[1]) * os.sysconf("SC_PAGE_SIZE")
-
-
 def measure(folder, source, disks, steps=STEPS):
     """One size; a function for processes.call. Leaves its packing and its last contact problem in ``folder``.
 
@@ -58,19 +51,19 @@ def measure(folder, source, disks, steps=STEPS):
     packed = packing.pack(chosen)  # not from the cache: how long it takes is asked
     packing_s = time.perf_counter() - began
     packing_files.save(packed, Path(folder) / PACKING)
-    before, began = _resident(), time.perf_counter()
+    before, began = machine.resident_bytes(), time.perf_counter()
     solver = slope.build(chosen, packed).solver
     advance(view=False)
     bonds, building_s = solver.bond(), time.perf_counter() - began
     timed = TimedSteps().run(0, warm_up=LOADING)
     begun = solver.totalIterations
     timed.run(steps, warm_up=0)
-    grown = _resident() - before
+    grown = machine.resident_bytes() - before
     solver.view()  # from here on all contacts have interactions
     memory = {
         "bytes_per_disk": grown / len(packed),
         "bytes_per_contact": grown / solver.candidates,
-        "bytes_per_contact_viewed": (_resident() - before) / solver.candidates,
+        "bytes_per_contact_viewed": (machine.resident_bytes() - before) / solver.candidates,
     }
     return {
         "disks": len(packed),
@@ -101,7 +94,7 @@ def measure_soft_memory(folder, source, disks, packed):
     Returns {"contacts", "bytes_per_disk"}.
     """
     chosen, packed = states.section_of(source, disks), packing_files.load(packed)
-    before = _resident()
+    before = machine.resident_bytes()
     # fragile bonds are YADE's own; others need an engine of ours
     world = worlds.Soft(
         stiffness=SOFT_YOUNG,
@@ -113,7 +106,7 @@ def measure_soft_memory(folder, source, disks, packed):
     advance()
     built.solver.bond()
     advance()  # and no more: bonds that break would leave fewer contacts in the same memory
-    grown, contacts = _resident() - before, O.interactions.countReal()
+    grown, contacts = machine.resident_bytes() - before, O.interactions.countReal()
     return {"contacts": contacts, "bytes_per_disk": grown / len(packed)}
 
 

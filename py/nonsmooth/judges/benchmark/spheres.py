@@ -12,21 +12,12 @@ from ... import contact
 from ...measure.statistics import spread
 from . import sweeps
 
-__all__ = ["HEADLINES", "disks", "headlines", "measure", "spheres"]
+__all__ = ["disks", "measure", "spheres"]
 
 STEP, GRAVITY, DENSITY = 5e-3, 9.81, 2500.0
 FRICTION, ROLLING, TWISTING = 0.3, 0.05, 0.05
 REACH = 0.012  # gaps [m] of grains of a metre that count as touching: with it a sphere touches nine others
 COLD_TOLERANCE = 1e-4
-
-#: Headline figures of ``space.json`` and what each is; medians.
-HEADLINES = {
-    "space_sweep_ns_per_contact": "a sweep in space, for each contact, one thread [ns]",
-    "space_sweep_over_plane": "the same, over a sweep in the plane",
-    "space_sweep_speedup_over_scalar": "a sweep in space by the law's formulas, contact after contact, over it",
-    "space_sweep_speedup_two_threads": "a sweep in space on one thread, over two",
-    "space_cold_sweeps_to_1e-4": "sweeps from zero to a residual of 1e-4, 27 layers of spheres",
-}
 
 
 def _grains(place, dice):
@@ -122,8 +113,9 @@ def disks(columns=300, rows=100, seed=1) -> contact.ContactProblem:
     )
 
 
-def measure(repeats, columns=27, rows=27, flat=(300, 100)) -> dict:
-    """Times sweeps over spheres by every path, and over disks by the best, in turns; and how many a cold start takes.
+def measure(folder, repeats, columns=27, rows=27, flat=(300, 100)) -> dict:
+    """Times sweeps over spheres by every path, and over disks by the best, in turns; and how many a cold start takes. A
+    function for processes.call.
 
     ``columns``, ``rows``: of the spheres; ``flat``: columns and rows of the disks.
     """
@@ -156,16 +148,4 @@ def measure(repeats, columns=27, rows=27, flat=(300, 100)) -> dict:
         "cold_converged": cold.converged,
         "share_of_weight": borne / weight,
         "repeats": repeats,
-    }
-
-
-def headlines(found) -> dict:
-    """``found`` of :func:`measure` with the headline figures before it."""
-    return {
-        "space_sweep_ns_per_contact": found["ns_per_contact"]["best"]["median"],
-        "space_sweep_over_plane": found["over_plane"]["median"],
-        "space_sweep_speedup_over_scalar": found["speedup_over_reference"]["best"]["median"],
-        "space_sweep_speedup_two_threads": found["speedup_two_threads"]["median"],
-        "space_cold_sweeps_to_1e-4": found["cold_sweeps"],
-        **found,
     }

@@ -19,7 +19,7 @@ from ...measure.statistics import spread
 from ...studies.slope import states
 from ...world.stepping import advance
 
-__all__ = ["STAGES", "TimedSteps", "measure"]
+__all__ = ["BLOCK", "STAGES", "WARM_UP", "TimedSteps", "measure", "of_scene", "summarise"]
 
 #: Stages of a step in their order, those of ContactDynamicsEngine.stageSeconds among them; "other" is what no stage
 #: has.
@@ -52,7 +52,7 @@ BLOCK = 10  # steps that are made and timed together, as the rows of a run, whic
 
 class TimedSteps:
     """Times steps, at which nobody looks, of the present scene by ContactDynamicsEngine.stageSeconds, by YADE's own
-    timers where no engine of the plugin is at work, and by a clock around BLOCK of them at a time.
+    timers for stages of which that clock knows nothing, and by a clock around BLOCK of them at a time.
 
     ``rows``: one dictionary a block: wall time [s] of one of its steps by stage, "step" for all of it and "other" for
     what no stage has.
@@ -69,23 +69,38 @@ class TimedSteps:
         advance(warm_up, view=False)
         for made in range(0, steps, BLOCK):
             count = min(BLOCK, steps - made)
-            before, begin = self._spent(), time.perf_counter()
+            before, begin = self._clocks(), time.perf_counter()
             advance(count, view=False)
             if self.solver:
                 self.solver.bodyTable()
             step = (time.perf_counter() - begin) / count
-            row = {name: (after - before[name]) / count for name, after in self._spent().items()}
+            row = {name: seconds / count for name, seconds in self._since(*before).items()}
             self.rows.append({**row, "other": step - sum(row.values()), "step": step})
         return self
 
-    def _spent(self):
-        spent = {name: 1e-9 * engine.execTime for engine, name in self.engines}
-        return spent | (self.solver.stageSeconds if self.solver else {})
+    def _clocks(self):
+        """What YADE's timers and the solver's clock have come to [s]: two dictionaries."""
+        timers = {name: 1e-9 * engine.execTime for engine, name in self.engines}
+        return timers, (dict(self.solver.stageSeconds) if self.solver else {})
+
+    def _since(self, timers, clock):
+        """What each stage took since. The clock has 0 for a stage that an engine of YADE's own does, as the search of
+        spheres in space."""
+        timers_now, clock_now = self._clocks()
+        timed = {name: after - timers[name] for name, after in timers_now.items()}
+        clocked = {name: after - clock[name] for name, after in clock_now.items()}
+        return timed | {name: seconds or timed.get(name, 0.0) for name, seconds in clocked.items()}
 
     def summary(self):
-        """{"step_ms": spread, "stage_ms": {name: spread}} in the order of STAGES, see statistics.spread."""
-        in_ms = {name: spread([1e3 * row[name] for row in self.rows]) for name in self.rows[0]}
-        return {"step_ms": in_ms["step"], "stage_ms": {name: in_ms[name] for name in STAGES if name in in_ms}}
+        """As :func:`summarise` has it."""
+        return summarise(self.rows)
+
+
+def summarise(rows):
+    """{"step_ms": spread, "stage_ms": {name: spread}} in the order of STAGES, see statistics.spread, of ``rows`` as
+    :class:`TimedSteps` has them, one or more."""
+    in_ms = {name: spread([1e3 * row[name] for row in rows]) for name in rows[0]}
+    return {"step_ms": in_ms["step"], "stage_ms": {name: in_ms[name] for name in STAGES if name in in_ms}}
 
 
 def measure(folder, source, disks, state, steps, dump=False):
@@ -95,21 +110,24 @@ def measure(folder, source, disks, state, steps, dump=False):
     Raises states.BenchmarkError where the state is missing.
     """
     states.load(source, disks, state)
-    timed = TimedSteps().run(0)
+    timed, told = of_scene(steps)
+    if dump:
+        timed.solver.dump(str(Path(folder) / "step.h5"))
+    return {**timed.summary(), **told}
+
+
+def of_scene(steps, warm_up=WARM_UP):
+    """Times so many steps of the present scene, after ``warm_up`` that are not kept: its :class:`TimedSteps`, and a dictionary
+    of how many contacts there are, how long a step is [s], and what a solver has to say of it.
+    """
+    timed = TimedSteps().run(0, warm_up)
     solver = timed.solver
     if solver is None:
-        return {
-            **timed.run(steps, warm_up=0).summary(),
-            "contacts": O.interactions.countReal(),
-            "time_step_s": O.dt,
-            "steps": steps,
-        }
+        timed.run(steps, warm_up=0)
+        return timed, {"contacts": O.interactions.countReal(), "time_step_s": O.dt, "steps": steps}
     sweeps, unconverged, begun = solver.totalIterations, solver.unconverged, O.time
     timed.run(steps, warm_up=0)
-    if dump:
-        solver.dump(str(Path(folder) / "step.h5"))
-    return {
-        **timed.summary(),
+    return timed, {
         "sweeps_mean": (solver.totalIterations - sweeps) / steps,
         "unconverged": solver.unconverged - unconverged,
         "contacts": solver.contacts,

@@ -32,13 +32,15 @@ MEMORY_BYTES = 256_000_000  # more than any cache
 STREAM_BYTES = 1_000_000_000  # passed over in all, for each size of working set
 
 
-def sweep_seconds(problem, path, threads, precision):
-    """Wall time of one sweep over the ContactProblem [s]. Raises RuntimeError where one of the solves ended early."""
+def sweep_seconds(problem, path, threads, precision, start="cold"):
+    """Wall time of one sweep over the ContactProblem [s]; ``start``: see contact.solve. Raises RuntimeError where one of
+    the solves ended early.
+    """
 
     def solve(sweeps):
         solved = contact.solve(
             problem,
-            start="cold",
+            start=start,
             tolerance=TOLERANCE,
             max_iterations=sweeps,
             check_every=sweeps,

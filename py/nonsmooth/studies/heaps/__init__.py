@@ -20,3 +20,5 @@
 
 All lengths are in m, and forces and energies are those of a slice 1 m thick.
 """
+
+__all__ = ["column", "course", "grains", "pile", "preparation", "profiles", "report", "study"]

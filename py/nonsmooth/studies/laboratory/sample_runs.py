@@ -47,6 +47,7 @@ def run(made, out, threads, function, advice, resume=False, progress=lambda shar
     home = Path(out) / "tests"
     runs = [side_by_side.Run(name, home / name, function, asdict(test), key) for name, test, key in made]
     side_by_side.check(runs, CampaignError, advice)
+    side_by_side.check_folders(runs, resume, CampaignError, go_on=True)
     _press({test.shape for _, test, _ in made}, home, threads, progress)
     side_by_side.run(
         runs,
@@ -64,8 +65,9 @@ def run(made, out, threads, function, advice, resume=False, progress=lambda shar
 
 def run_one(test, out, key, function, resume=False):
     """The same of one test in the folder ``out`` itself."""
-    _press({test.shape}, Path(out), 1, lambda share, doing: None)
     one = side_by_side.Run(str(out), Path(out), function, asdict(test), key)
+    side_by_side.check_folders([one], resume, CampaignError, go_on=True)
+    _press({test.shape}, Path(out), 1, lambda share, doing: None)
     side_by_side.run([one], 1, resume, CampaignError, go_on=True)
     shutil.rmtree(Path(out) / "checkpoint", ignore_errors=True)
 

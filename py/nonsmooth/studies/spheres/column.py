@@ -123,12 +123,14 @@ class RoundColumn(SphereScene):
         order = np.argsort(np.hypot(places.at[:, 0], places.at[:, 1]))
         share = np.cumsum(places.r[order] ** 3) / np.sum(places.r**3)
         far = np.hypot(*places.at[order].T[:2])
+        edge = float(series["edge_m"][-1])
         return {
             "radius_m": self.radius,
             "height_m": state["height"],
             "aspect": state["height"] / self.radius,
-            "edge_m": float(series["edge_m"][-1]),
-            "runout_rel": float(series["edge_m"][-1]) / self.radius - 1,
+            # what has spread so thin that it is nowhere half a diameter high, as without friction, has no edge
+            "edge_m": edge or None,
+            "runout_rel": edge / self.radius - 1 if edge else None,
             "runout_connected_rel": float(series["edge_connected_m"][-1]) / self.radius - 1,
             "runout_95_rel": float(far[np.searchsorted(share, 0.95)]) / self.radius - 1,
             "runout_99_rel": float(far[np.searchsorted(share, 0.99)]) / self.radius - 1,

@@ -24,7 +24,7 @@ from ...system import checks
 from ...world.stepping import advance, until
 from . import places as files, preparation, scene as scenes
 from .columns import COMMON
-from .grains import SphereScene, SpheresError, key_of, world_of
+from .grains import SphereScene, SpheresError, check_run, key_of, world_of
 
 __all__ = ["columns_of", "run"]
 
@@ -177,6 +177,7 @@ def run(scene, world=None, folder=None, duration=None, progress=lambda share: No
     scene.check_world(world)
     duration = scene.DURATION if duration is None else duration
     checks.number("duration", duration, SpheresError, "give a number above 0, in units of T", above=0)
+    check_run(scene, world, duration)
     folder = Path(checks.path("folder", folder, SpheresError, "give the path of a folder for the run's records"))
     (folder / "snapshots").mkdir(parents=True, exist_ok=True)
     if world.name == "hard" and checkpoints.exists(folder):

@@ -13,12 +13,15 @@ from ...system import checks, keys
 from ...world import sphere_worlds as worlds
 from ...world.choice import check_choice
 
-__all__ = ["PATH_PER_STEP", "TOLERANCE", "SphereScene", "SpheresError", "key_of", "world_of"]
+__all__ = ["PATH_PER_STEP", "TOLERANCE", "SphereScene", "SpheresError", "check_run", "key_of", "world_of"]
 
 PATH_PER_STEP = 0.1  # mean diameters, at the speed of a free fall from the top
 TOLERANCE = 1e-4  # of the solver's residual, relative
 WEIGHT_OVERLAP = 0.02  # diameters, largest overlap under the own weight that soft contacts may have
 MOST_SPHERES = 200_000
+MOST_STEPS = 1e9  # of a run, days of work even for a few spheres
+#: Values, with their units, beyond which masses and times leave the range of what is computed with them.
+RANGES = {"diameter": (1e-6, 1e3, "m"), "density": (1e-3, 1e6, "kg/m³"), "gravity": (1e-6, 1e6, "m/s²")}
 _SOFT = tuple(one.name for one in fields(worlds.SoftSpheres) if one.name != "diameter")
 
 
@@ -50,8 +53,8 @@ class SphereScene:
 
     def __post_init__(self):
         checks.count("seed", self.seed, SpheresError, "give a whole number from 0", least=0)
-        for key in ("diameter", "density", "gravity"):
-            self._number(key, "give a number above 0", above=0)
+        for key, (least, most, unit) in RANGES.items():
+            self._number(key, f"give a number from {least:g} to {most:g} {unit}", least=least, most=most)
         for key in ("friction", "rolling_friction", "twisting_friction"):
             self._number(key, "give 0 or more", least=0)
             wrong = units.wrong(key, getattr(self, key)) if key != "twisting_friction" else None
@@ -205,6 +208,29 @@ def world_of(scene, name="hard", path=None, tolerance=None, reach=None, **soft):
     made = worlds.SoftSpheres(diameter=scene.diameters(), **soft)
     scene.check_world(made)
     return made
+
+
+def check_run(scene, world, duration):
+    """Raises SpheresError before anything is computed where the spheres of a SphereScene do not fit into its container,
+    and where a course of ``duration`` [T] has more steps in the ``world`` than anybody waits for.
+    """
+    scene.sites(scene.radii())
+    usual = scene.DURATION
+    unit, step = math.sqrt(scene.depth() / scene.gravity), world.step_for([scene.material()])
+    steps = duration * unit / step if step > 0 else math.inf
+    if steps <= MOST_STEPS:
+        return
+    over = 1.05 * steps / MOST_STEPS  # 5 %, so that what is given with two digits is taken
+    if duration > usual * 1.001:
+        told, remedy = f"duration {duration:g} T", f"{duration / over:.2g} or less"
+    elif world.name == "hard":
+        path = world.time_step / scene.time_step(1.0)
+        told, remedy = f"path {path:g}", f"{path * over:.2g} or more"
+    elif world.step_share * over <= worlds.SoftSpheres.step_share:
+        told, remedy = f"step_share {world.step_share:g}", f"{world.step_share * over:.2g} or more"
+    else:
+        told, remedy = f"stiffness {world.stiffness:g} Pa", f"{world.stiffness / over**2:.2g} or less"
+    raise SpheresError(f"{told}: that is {steps:.1e} steps to the end of the course; give {remedy}")
 
 
 def key_of(scene, world, duration):

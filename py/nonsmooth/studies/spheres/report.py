@@ -83,12 +83,12 @@ def _fits(found):
     """Power laws of the run-out below and above the aspect ratio where the law of Lube et al. changes, and of the
     height above; None where there are too few aspect ratios.
     """
-    ended = [one for one in found.values() if one["ended"]]
-    a = np.array([one["aspect"] for one in ended])
     fits = {}
     for name, key, law in (("runout", "runout_rel", laws.RUNOUT[0]), ("height", "final_height_rel", laws.HEIGHT[0])):
+        ended = [one for one in found.values() if one["ended"] and one[key] is not None]
+        a, values = ([one[what] for one in ended] for what in ("aspect", key))
         try:
-            pair = power_laws.exponents(a, np.array([one[key] for one in ended]), law.change) if ended else (None, None)
+            pair = power_laws.exponents(a, values, law.change) if ended else (None, None)
         except power_laws.PowerLawError:  # one that did not spread
             pair = (None, None)
         for where, fit, (factor, exponent) in zip(("below", "above"), pair, law.pieces):
@@ -154,6 +154,11 @@ def table(summary):
             lines.append(
                 f"{name} {side} a = {fit['change']:g}: {fit['factor']:.2f} a^({fit['exponent']:.3f}{sure}), {fit['points']} runs. {fit['source']}: {fit['published_factor']:g} a^{fit['published_exponent']:.3g}"
             )
+    edgeless = [name for name, one in summary["runs"].items() if one.get("runout_rel", 0) is None]
+    if edgeless:
+        lines.append(
+            f"no run-out, as the mass is nowhere half a mean diameter high: {', '.join(edgeless)} (without friction it spreads without end)"
+        )
     unended = [name for name, one in summary["runs"].items() if not one["ended"] and summary["kind"] != "drum"]
     if unended:
         lines.append(f"did not come to their end: {', '.join(unended)}")

@@ -11,7 +11,7 @@ from ...running import kept_runs, side_by_side
 from ...system import checks
 from .column import RoundColumn
 from .drum import TurningDrum
-from .grains import SpheresError, key_of, world_of
+from .grains import SpheresError, check_run, key_of, world_of
 from .hopper import RoundHopper
 from .pile import PlatePile
 
@@ -35,14 +35,15 @@ def planned(name, folder, scene, world, duration=None) -> side_by_side.Run:
     """A run as side_by_side.run takes it, checked: ``name``: for messages; ``world``: arguments of
     :func:`.spheres.grains.world_of`, a dictionary; ``duration`` [T], None: that of its kind.
 
-    Raises what :func:`.spheres.grains.world_of` raises, and SpheresError for what is no scene and for a duration that
-    is no number above 0.
+    Raises what :func:`.spheres.grains.world_of` and :func:`.spheres.grains.check_run` raise, and SpheresError for what
+    is no scene and for a duration that is no number above 0.
     """
     if type(scene) not in KINDS.values():
         raise SpheresError(f"{checks.shown(scene)}: is no scene of spheres; give one of {', '.join(KINDS)}")
     if duration is not None:
         checks.number("duration", duration, SpheresError, "give a number above 0, in units of T", above=0)
     made = world_of(scene, **world)
+    check_run(scene, made, scene.DURATION if duration is None else duration)
     return side_by_side.Run(
         name,
         Path(folder),

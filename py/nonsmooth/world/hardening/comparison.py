@@ -72,9 +72,7 @@ def _measured(O):
     return {
         "simulated [s]": O.time,
         "step [s]": O.dt,
-        "kinetic energy [J]": sum(
-            0.5 * b.state.mass * b.state.vel.squaredNorm() for b in O.bodies if b is not None and b.dynamic
-        ),
+        "kinetic energy [J]": sum(_kinetic(b.state) for b in O.bodies if b is not None and b.dynamic),
         "largest overlap [radii]": _largest_overlap(O),
         "contacts": O.interactions.countReal(),
         "spheres": len(balls),
@@ -83,6 +81,12 @@ def _measured(O):
         **_places(balls),
         **_heights(O),
     }
+
+
+def _kinetic(state):
+    """Kinetic energy of a body, that of its turning included [J]; inertia is about its own axes."""
+    turning = state.ori.conjugate() * state.angVel
+    return 0.5 * (state.mass * state.vel.squaredNorm() + sum(i * w * w for i, w in zip(state.inertia, turning)))
 
 
 def _places(balls):

@@ -18,7 +18,9 @@ EACH = pytest.mark.parametrize("kind", KINDS, ids=study.KINDS)
 @pytest.mark.parametrize(
     "wrong, said",
     (
-        (dict(diameter=0), "^diameter 0: give a number above 0"),
+        (dict(diameter=0), "^diameter 0: give a number from 1e-06 to 1000 m"),
+        (dict(diameter=1e-300), "^diameter 1e-300: give a number from 1e-06 to 1000 m"),
+        (dict(density=1e300), "^density 1e.300: give a number from 0.001 to 1e.06 kg/m³"),
         (dict(size_spread=0.5), "size_spread 0.5: give largest over smallest diameter"),
         (dict(friction=30), "friction 30: 30 is no coefficient of friction"),
         (dict(friction="0.5"), "friction '0.5': give 0 or more"),
@@ -70,6 +72,7 @@ def test_wrong_shapes_are_named(make, said):
             dict(name="soft", stiffness=1e3),
             "stiffness 1000 Pa: spheres at the bottom would overlap by .* give .* or more",
         ),
+        (dict(name="soft", stiffness=1e300), "stiffness 1e.300: give a number above 0, to 1e.15 at most"),
         (dict(name="soft", stiffness=1e7, damping=1), "damping 1"),
         (dict(name="soft", stiffness=1e7, colour=1), "colour: no value of the soft world"),
     ),
@@ -98,6 +101,38 @@ def test_the_step_takes_a_sphere_over_a_tenth_of_a_diameter():
     speed = math.sqrt(2 * 9.81 * 2 * 5 * 0.02)  # from the top
     assert grains.world_of(c).time_step * speed == pytest.approx(0.1 * 0.02, rel=1e-12)
     assert grains.world_of(c, path=0.3).time_step == pytest.approx(3 * grains.world_of(c).time_step, rel=1e-12)
+
+
+@pytest.mark.parametrize(
+    "world, duration, key, usual",
+    (
+        (dict(path=1e-9), None, "path", 0.1),
+        (dict(name="soft", stiffness=1e15), None, "stiffness", 1e7),
+        (dict(name="soft", stiffness=1e9, step_share=1e-6), None, "step_share", 0.5),
+        (dict(), 1e9, "duration", 200.0),
+    ),
+)
+def test_a_course_without_end_is_refused_with_what_would_do(world, duration, key, usual):
+    c = hopper.RoundHopper()
+    with pytest.raises(
+        grains.SpheresError, match=f"^{key} .*: that is .* steps to the end of the course; give "
+    ) as told:
+        study.planned("one", "/tmp/none", c, world, duration)
+    least = float(str(told.value).split("give ")[1].split()[0])
+    # towards the usual value, and no further than need be: what is named is taken, and half of the way is not
+    given = {**world, key: least} if key != "duration" else world
+    assert study.planned("one", "/tmp/none", c, given, least if key == "duration" else duration)
+    further = least * (2 if usual < least else 0.5)
+    given = {**world, key: further} if key != "duration" else world
+    with pytest.raises(grains.SpheresError, match=f"^{key}"):
+        study.planned("one", "/tmp/none", c, given, further if key == "duration" else duration)
+
+
+def test_spheres_that_do_not_fit_are_told_before_anything_runs():
+    small = drum.TurningDrum(size=5, length=3, filling=0.5)
+    with pytest.raises(grains.SpheresError, match="size 5, length 3, filling 0.5: .* do not fit into the container"):
+        study.planned("one", "/tmp/none", small, {})
+    assert study.planned("one", "/tmp/none", dataclasses.replace(small, filling=0.2), {})
 
 
 def test_a_scene_is_asked_for():
@@ -283,6 +318,26 @@ def test_seeds_are_taken_together_and_laws_stand_beside():
     assert len(header) == len(rows[0]) and rows[1][:3] == ["aspect 4", "100", "3"]
     assert rows[1][header.index("Lube et al.")] == "3.20"  # 1.6 · √4
     assert "runout above a = 1.7: 2.00 a^(0.500" in report.table(summary)
+
+
+def test_a_mass_that_is_nowhere_half_a_diameter_high_has_no_run_out():
+    """As spheres without friction, which spread without end: 40 of them lie far apart on the floor."""
+    c = column.RoundColumn(aspect=1, size=2, friction=0.0, rolling_friction=0.0)
+    k = np.arange(40)
+    at = np.column_stack((0.2 * (k % 8 - 3.5), 0.2 * (k // 8 - 2), np.full(40, 0.005)))
+    flat = places.Places(at, np.full(40, 0.005), k, np.zeros(40), 1.0, 100)
+    row = c.row(flat, {})
+    assert row["edge_m"] == 0
+    series = {name: np.array([0.1, value]) for name, value in row.items()} | {"height_m": np.array([0.1, 0.01])}
+    found = c.results(series, flat, {"height": 0.02})
+    assert found["edge_m"] is None and found["runout_rel"] is None
+    thick = c.results(series | {"edge_m": np.array([0.1, 0.05])}, flat, {"height": 0.02})
+    assert (thick["edge_m"], thick["runout_rel"]) == pytest.approx((0.05, 0.05 / 0.02 - 1))
+    summary = report.summarise({"a": made_run(column.RoundColumn, 1, **{**found, "aspect": 1.0})})
+    assert summary["groups"][0]["runout_rel"]["mean"] is None and summary["fits"]["runout_above"] is None
+    ((_, header, rows),) = summary["tables"]
+    assert rows[0][header.index("run-out")] == "–"
+    assert "no run-out, as the mass is nowhere half a mean diameter high: a" in report.table(summary)
 
 
 @pytest.mark.parametrize("kind", (hopper.RoundHopper, drum.TurningDrum, pile.PlatePile))

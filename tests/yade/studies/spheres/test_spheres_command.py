@@ -6,6 +6,7 @@ from dataclasses import fields
 
 import pytest
 from yade.nonsmooth import errors
+from yade.nonsmooth.running import kept_runs
 from yade.nonsmooth.studies.spheres import grains, study
 
 SOFT = ("--world", "soft", "--stiffness", "2e7")
@@ -85,6 +86,10 @@ def test_all_combinations_of_values_and_seeds_are_run(asked):
         (("pile", "--world", "soft"), "stiffness None: the soft world needs Young's modulus"),
         (("pile", *SOFT, "--restitution", 0.5), "restitution 0.5 with soft contacts"),
         (("pile", "--path", 0), "--path: 0: it must be positive"),
+        (("pile", "--diameter", "1e-300"), "diameter 1e-300: give a number from 1e-06 to 1000 m"),
+        (("pile", "--world", "soft", "--stiffness", "1e300"), "stiffness 1e+300: give a number above 0, to 1e+15"),
+        (("column", "--path", "1e-9"), "path 1e-09: that is"),
+        (("drum", "--size", 5, "--length", 3, "--filling", "0.1,0.5"), "size 5, length 3, filling 0.5: "),
     ),
 )
 def test_bad_input_is_one_line_before_anything_is_computed(in_process, tmp_path, words, said):
@@ -92,6 +97,26 @@ def test_bad_input_is_one_line_before_anything_is_computed(in_process, tmp_path,
     done = in_process("spheres.py", *words, *(("--out", out) if words else ()))
     assert done.status in (1, 2) and said in done.last and "Traceback" not in done.err
     assert not out.exists()
+
+
+def test_another_study_does_not_take_the_place_of_halted_runs(in_process, tmp_path):
+    folder = tmp_path / "runs" / "seed1"
+    halted = study.planned("seed1", folder, study.KINDS["column"](size=3, aspect=0.6), {"name": "hard"})
+    (folder / "checkpoint").mkdir(parents=True)
+    (folder / "checkpoint" / "checkpoint.json").write_text("{}")
+    kept_runs.begin(folder, halted.key, halted.function)
+    words = ("column", "--size", 3, "--out", tmp_path)
+    for more, said in (
+        (("--aspect", 0.6), "holds a run that was halted, with its checkpoint"),
+        (("--aspect", 0.7), "go on with it with --resume, or give another --out"),
+        (
+            ("--aspect", 0.7, "--resume"),
+            "holds a run of other parameters that was halted; give the same ones, or another --out",
+        ),
+    ):
+        done = in_process("spheres.py", *words, *more)
+        assert done.status == 1 and said in done.last and str(folder) in done.last, done.err
+    assert (folder / "checkpoint" / "checkpoint.json").read_text() == "{}"
 
 
 def test_a_small_study_is_kept_and_drawn(in_process, tmp_path):
