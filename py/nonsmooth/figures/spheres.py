@@ -109,10 +109,15 @@ def _log_axes(ax):
     ax.set_axisbelow(True)
 
 
+def _with(groups, name):
+    """Those that have a mean: a hopper that was stopped early has no rate, a column without friction no run-out."""
+    return [group for group in groups if group[name]["mean"] is not None]
+
+
 def _bars(groups, name):
     """Means and half widths, 0 where there is none."""
     pairs = [(group[name]["mean"], group[name]["half_width"] or 0.0) for group in groups]
-    return np.array([np.nan if m is None else m for m, _ in pairs]), np.array([h for _, h in pairs])
+    return np.array([m for m, _ in pairs], float), np.array([h for _, h in pairs])
 
 
 @style.styled
@@ -141,7 +146,9 @@ def runout(groups, path=None, pdf=False):
                     ax.plot(ends, [c * a**n for a in ends], color=colour, ls=dash, label=named)
                     named = None
         for world, colour, marker in zip(worlds, (LINES["blue"], LINES["purple"]), MARKERS):
-            mine = [group for group in groups if group["world"] == world]
+            mine = [group for group in _with(groups, name) if group["world"] == world]
+            if not mine:
+                continue
             (x, dx), (y, dy) = _bars(mine, "aspect"), _bars(mine, name)
             ax.errorbar(
                 x,
@@ -205,7 +212,9 @@ def discharge(series, summary, path=None, pdf=False):
     for world, colour, marker in zip(
         dict.fromkeys(g["world"] for g in groups), (LINES["blue"], LINES["purple"]), MARKERS
     ):
-        mine = [group for group in groups if group["world"] == world]
+        mine = [group for group in _with(groups, "rate_rel") if group["world"] == world]
+        if not mine:
+            continue
         y, dy = _bars(mine, "rate_rel")
         x = [group["asked"]["opening"] for group in mine]
         right.errorbar(
@@ -247,6 +256,7 @@ def reposes(groups, path=None, pdf=False):
         raise RecordsError("there are no piles to draw; give one or more")
     fig = style.figure(6.4, 4.2, layout="constrained")
     ax = fig.subplots()
+    groups = _with(groups, "repose_deg")
     lines = sorted({(group["world"], group["asked"]["rolling_friction"]) for group in groups})
     for (world, rolling), colour, marker in zip(lines, style.line_colours(len(lines)), MARKERS * 9):
         mine = sorted(
@@ -271,5 +281,6 @@ def reposes(groups, path=None, pdf=False):
     ax.set_ylabel("angle of repose [°]")
     ax.set_ylim(bottom=0)
     ax.grid(color="#e3e3e3", lw=0.7)
-    ax.legend(loc="lower left", fontsize=8)
+    if lines:
+        ax.legend(loc="lower left", fontsize=8)
     return style.save(fig, path, pdf)

@@ -29,7 +29,7 @@ def run(
     counts, sizes = sorted({1, threads}), sorted(sizes)
     each = steps.BLOCK * -(-effort.steps // (effort.turns * steps.BLOCK))
     seconds = {
-        "sweeps": 5 + 1e-4 * effort.repeats * layers**3,
+        "sweeps": 5 + 1.5e-4 * effort.repeats * layers**3,
         "bed": 10 + 0.02 * bed,
         "steps": 5 + effort.turns * (6 + 1e-5 * bed * (each + steps.WARM_UP) * 6),
         **{size: 10 + 1e-3 * size for size in sizes},
