@@ -145,8 +145,8 @@ def whole(sweeps):
 
 
 def test_a_ratio_is_of_one_turn():
-    """Steps of 20 and 30 ms beside 10 and 10: twice and three times, and a tenth of these for a second."""
-    turns = {name: [10.0, 10.0] for name in sphere_bed.NAMES} | {"rest": [20.0, 30.0], "moving": [50.0, 50.0]}
+    """Steps of 20 and 60 ms beside 10 and 20: twice and three times, and a tenth of these for a second."""
+    turns = {name: [10.0, 20.0] for name in sphere_bed.NAMES} | {"rest": [20.0, 60.0], "moving": [50.0, 100.0]}
     told = {name: {"time_step_s": 5e-3 if name in sphere_bed.HARD else 5e-4} for name in sphere_bed.NAMES}
     found = sphere_steps._ratios(turns, told)
     assert found["step_over_soft_rest_1e+09"]["median"] == pytest.approx(2.5)
@@ -193,13 +193,18 @@ def test_spheres_are_poured_apart_and_between_their_walls():
 @pytest.mark.parametrize("count, sides", [(7, (2.2, 2.2)), (12, (2.2, 2.2)), (30, (2.2, 6.6)), (60, (4.4, 6.6))])
 def test_a_large_bed_is_made_of_copies_that_do_not_touch(count, sides):
     one = sphere_bed.poured(12)
+    one = sphere_bed.Packed(one.at[::-1], one.r[::-1], one.sides)  # places in any order
     found = sphere_bed.tiled(one, count)
     assert found.at.shape == (count, 3) and found.r.shape == (count,) and found.sides == pytest.approx(sides)
     assert min(gaps(found)) > 0
-    # the highest are left out
-    most = math.ceil(count / 12) if count > 12 else 1
-    whole_bed = sphere_bed.tiled(one, 12 * round(sides[0] * sides[1] / 2.2**2))
-    assert most >= 1 and found.at[:, 2].max() <= np.sort(whole_bed.at[:, 2])[count - 1]
+    # the highest of the copies are left out
+    copies = round(sides[0] * sides[1] / 2.2**2)
+    assert found.at[:, 2].max() <= np.sort(np.repeat(one.at[:, 2], copies))[count - 1]
+    # with their own radii
+    radius = {round(z, 6): set() for z in one.at[:, 2]}
+    for z, r in zip(one.at[:, 2], one.r):
+        radius[round(z, 6)].add(r)
+    assert all(r in radius[round(z, 6)] for z, r in zip(found.at[:, 2], found.r))
 
 
 def test_the_states_are_what_they_are_called(tmp_path):

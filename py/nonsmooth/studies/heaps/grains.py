@@ -19,6 +19,8 @@ __all__ = ["BASES", "FRACTION", "TOLERANCE", "Heap", "HeapError", "hard"]
 
 BASES = ("smooth", "rough")
 FRACTION = 0.82  # of the disks as they are packed, before they settle: loose enough for disks of one size
+#: Values, with their units, beyond which areas, masses and times leave the range of what is computed with them.
+RANGES = {"diameter": (1e-6, 1e3, "m"), "density": (1e-3, 1e6, "kg/m³"), "gravity": (1e-6, 1e6, "m/s²")}
 PATH_PER_STEP = 0.1  # mean diameters, at the speed of a free fall from the top
 TOLERANCE = 1e-4  # of the solver's residual, relative
 
@@ -69,8 +71,8 @@ class Heap:
         def number(key, remedy, **bounds):
             checks.number(key, getattr(self, key), HeapError, remedy, **bounds)
 
-        for key in ("diameter", "density", "gravity"):
-            number(key, "give a number above 0", above=0)
+        for key, (least, most, unit) in RANGES.items():
+            number(key, f"give a number from {least:g} to {most:g} {unit}", least=least, most=most)
         for key in ("friction", "rolling_friction"):
             number(key, "give 0 or more", least=0)
             wrong = units.wrong(key, getattr(self, key))

@@ -12,6 +12,7 @@ from ...model.section import units
 from ...system import checks, keys
 from ...world import sphere_worlds as worlds
 from ...world.choice import check_choice
+from ..heaps.grains import RANGES
 
 __all__ = ["PATH_PER_STEP", "TOLERANCE", "SphereScene", "SpheresError", "check_run", "key_of", "world_of"]
 
@@ -20,8 +21,6 @@ TOLERANCE = 1e-4  # of the solver's residual, relative
 WEIGHT_OVERLAP = 0.02  # diameters, largest overlap under the own weight that soft contacts may have
 MOST_SPHERES = 200_000
 MOST_STEPS = 1e9  # of a run, days of work even for a few spheres
-#: Values, with their units, beyond which masses and times leave the range of what is computed with them.
-RANGES = {"diameter": (1e-6, 1e3, "m"), "density": (1e-3, 1e6, "kg/m³"), "gravity": (1e-6, 1e6, "m/s²")}
 _SOFT = tuple(one.name for one in fields(worlds.SoftSpheres) if one.name != "diameter")
 
 
