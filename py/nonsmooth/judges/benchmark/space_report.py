@@ -115,6 +115,8 @@ def _steps_table(found, threads):
     steps = [m for m in found["steps"] if m["threads"] == threads]
     rows = [("step", *(with_quartiles(m["step_ms"]) for m in steps))]
     rows.append(("sweeps alone", *(with_quartiles(m["sweeps_ms"]) if "sweeps_ms" in m else "-" for m in steps)))
+    solve = "solve_without_sweeps_ms"
+    rows.append(("the solve without them, mean", *(number(m[solve]) if solve in m else "-" for m in steps)))
     # a stage that works in some steps only, as the collider does, shows in the mean alone
     rows += [
         (f"{name}, mean", *(number(m["stage_ms"][name]["mean"]) if name in m["stage_ms"] else "-" for m in steps))
@@ -142,6 +144,7 @@ def _size_table(found):
             with_quartiles(s["sweep_ns_per_contact"]["1"]),
             with_quartiles(s["sweep_ns_per_contact"][threads]),
             f"{1e-3 * s['bytes_per_contact']:.2f}",
+            f"{1e-3 * s['bytes_per_contact_without_bodies']:.2f}",
             f"{1e-3 * s['bytes_per_sphere']:.2f}",
         )
         for s in found["sizes"]
@@ -156,6 +159,7 @@ def _size_table(found):
         "ns a contact and sweep",
         f"{threads} threads",
         "kB a contact",
+        "without bodies",
         "kB a sphere",
     )
     return tabulate(rows, heads, disable_numparse=True)

@@ -24,7 +24,7 @@ def measure(folder, states, steps, turns, threads):
 
     Returns {"steps": a dictionary for each state, "ratios": {name: spread} of one turn each}. A hard state has
     ``sweeps_ms`` too: what its sweeps take of a step, their number times one sweep of the last step's problem from
-    what that step began with, timed in the same turn.
+    what that step began with, timed in the same turn; and ``solve_without_sweeps_ms``, mean: what else the solve does.
     """
     rows, turn_ms, sweeps_ms = ({name: [] for name in sphere_bed.NAMES} for _ in range(3))
     told, problem = {}, Path(folder) / PROBLEM
@@ -39,16 +39,11 @@ def measure(folder, states, steps, turns, threads):
                 each = sweeps.sweep_seconds(contact.load(problem), "best", threads, "mixed", "warm")
                 sweeps_ms[name].append(1e3 * told[name]["sweeps_mean"] * each)
     problem.unlink()
-    found = [
-        {
-            "state": name,
-            "threads": threads,
-            **summarise(rows[name]),
-            **({"sweeps_ms": spread(sweeps_ms[name])} if sweeps_ms[name] else {}),
-            **told[name],
-        }
-        for name in sphere_bed.NAMES
-    ]
+    found = [{"state": name, "threads": threads, **summarise(rows[name]), **told[name]} for name in sphere_bed.NAMES]
+    for one in found:
+        if one["state"] in sphere_bed.HARD:
+            one["sweeps_ms"] = spread(sweeps_ms[one["state"]])
+            one["solve_without_sweeps_ms"] = one["stage_ms"]["solve"]["mean"] - one["sweeps_ms"]["mean"]
     return {"steps": found, "ratios": _ratios(turn_ms, told)}
 
 
@@ -70,12 +65,14 @@ def measure_size(folder, states, spheres, steps=STEPS):
     weight from no forces in LOADING steps; ``steps`` more are timed. A function for processes.call. Leaves its last
     contact problem in ``folder``.
 
-    Memory is what the process grows by, bodies, their boxes and what YADE keeps for each contact included.
+    Memory is what the process grows by, with what YADE keeps for each contact and with the bodies, or without what
+    these had before the first step.
     """
     packed = sphere_bed.tiled(sphere_bed.load_packed(states), spheres)
     before, began = machine.resident_bytes(), time.perf_counter()
     solver = sphere_bed.hard_scene(packed)
     building_s, began = time.perf_counter() - began, time.perf_counter()
+    bodies = machine.resident_bytes() - before
     timed, told = of_scene(steps, LOADING)
     stepping_s, grown = time.perf_counter() - began, machine.resident_bytes() - before
     solver.view()
@@ -87,6 +84,7 @@ def measure_size(folder, states, spheres, steps=STEPS):
         "stepping_s": stepping_s,
         "bytes_per_contact": grown / solver.candidates,
         "bytes_per_contact_viewed": viewed / solver.candidates,
+        "bytes_per_contact_without_bodies": (grown - bodies) / solver.candidates,
         "bytes_per_sphere": grown / spheres,
         **timed.summary(),
         **told,
