@@ -13,7 +13,8 @@ if(SICONOS_INCLUDE AND SICONOS_NUMERICS AND SICONOS_EXTERNALS)
         get_filename_component(siconos_version "${siconos_version}" NAME)
     endif()
     message(STATUS "Siconos ${siconos_version}: building oracle/siconos_solve")
-    add_executable(siconos_solve tests/oracle/siconos_solve.cpp tests/oracle/delassus.cpp)
+    add_executable(siconos_solve tests/oracle/siconos_solve.cpp tests/oracle/siconos.cpp
+        tests/oracle/system.cpp tests/oracle/delassus.cpp)
     target_include_directories(siconos_solve PRIVATE tests/oracle)
     # Siconos includes its own headers without the folder
     target_include_directories(siconos_solve SYSTEM PRIVATE "${SICONOS_INCLUDE}" "${SICONOS_INCLUDE}/siconos" "${SICONOS_INCLUDE}/siconos/numerics")

@@ -140,6 +140,8 @@ def bits():
 
 
 def without_contacts(problem):
-    """The bodies of a ContactProblem alone."""
-    names = "body normal lever bias adhesion friction rolling_arm length warm_start impulse".split()
-    return dataclasses.replace(problem, **{name: getattr(problem, name)[:0] for name in names})
+    """The bodies of a ContactProblem or a SpaceProblem alone."""
+    names = "body normal lever bias adhesion friction rolling_arm twisting_arm length warm_start impulse".split()
+    return dataclasses.replace(
+        problem, **{name: getattr(problem, name)[:0] for name in names if hasattr(problem, name)}
+    )

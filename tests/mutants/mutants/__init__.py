@@ -9,6 +9,7 @@ from . import (
     impacts,
     laboratory,
     law,
+    oracles,
     plane,
     results,
     safety,
@@ -49,6 +50,7 @@ MUTANTS = (
     + water.MUTANTS
     + erosion.MUTANTS
     + space.MUTANTS
+    + oracles.MUTANTS
 )
 
 #: Mutants that no test sees, and why that is left so: {name: reason}.

@@ -4,7 +4,6 @@ tests/contact holds kept answers.
 
 import subprocess
 from dataclasses import replace
-from pathlib import Path
 
 import docutils.core
 import numpy as np
@@ -13,10 +12,9 @@ from yade.nonsmooth import contact
 from yade.nonsmooth.judges import verification
 from yade.nonsmooth.judges.verification import Bench, disk_problems, siconos, siconos_solve
 
+import kept_answers
 import oracles
 from contact_scenes import without_contacts
-
-DATA = Path(__file__).resolve().parents[2] / "data"
 
 
 @pytest.fixture(scope="module", autouse=True)
@@ -81,27 +79,9 @@ def test_random_problems_agree(tmp_path, check):
     )
 
 
-def kept_cluster(number):
-    """One of the twenty problems of tests/data/siconos_clusters.h5, with Siconos's answer in it; each ends with its
-    floor.
-    """
-    kept = contact.load(DATA / "siconos_clusters.h5")
-    ends = np.concatenate([[0], np.flatnonzero(~kept.inverse_mass.any(axis=1)) + 1])
-    bodies = slice(ends[number], ends[number + 1])
-    contacts = (kept.body[:, 0] >= bodies.start) & (kept.body[:, 0] < bodies.stop)
-    chosen = {
-        name: value[bodies if name in ("inverse_mass", "free_velocity", "velocity", "position") else contacts]
-        for name, value in vars(kept).items()
-        if name != "time_step" and value is not None
-    }
-    return contact.ContactProblem(
-        **{**chosen, "time_step": kept.time_step, "body": chosen["body"] - np.int32(bodies.start)}
-    )
-
-
 @pytest.mark.parametrize("number", [0, 9, 18, 19])
 def test_kept_answers_are_what_siconos_says_today(tmp_path, number):
-    problem = kept_cluster(number)
+    problem = kept_answers.cluster(contact, "siconos_clusters.h5", number)
     answer = siconos_solve.solve_with_siconos(problem, tmp_path, 1e-13, 1000000)
     assert np.abs(answer.velocity - problem.velocity).max() < 1e-10  # the tolerance, times 1,000 for the condition of W
     assert len(problem.length) > number + 3

@@ -22,6 +22,8 @@ MODULES = (
     "impact_chains",
     "packings",
     "siconos",
+    "space.siconos",
+    "space.twisting",
     "lmgc90",
     "solver",
     "methods",

@@ -6,9 +6,9 @@ import dataclasses
 import math
 
 import numpy as np
-from scipy.spatial import cKDTree
 
 from ...contact import ContactProblem
+from .grains import touching
 
 __all__ = ["below", "of_disks", "random_cluster"]
 
@@ -43,26 +43,8 @@ def of_disks(
         inverse_mass = np.column_stack([1 / mass, 1 / mass, 2 / (mass * r**2)])
     if free_velocity is None:
         free_velocity = np.tile([0.0, -gravity * time_step, 0.0], (count, 1))
-    pairs = cKDTree(np.column_stack([x, y])).query_pairs(2 * r.max() + reach, output_type="ndarray").reshape(-1, 2)
-    i, j = np.sort(pairs, axis=1)[np.lexsort(np.sort(pairs, axis=1).T[::-1])].T
-    distance = np.hypot(x[j] - x[i], y[j] - y[i])
-    gap = distance - r[i] - r[j]
-    near = gap < reach
-    i, j, gap, distance = i[near], j[near], gap[near], distance[near]
-    body = [np.column_stack([i, j])]
-    normal = [np.column_stack([x[j] - x[i], y[j] - y[i]]) / distance[:, None]]
-    lever = [np.column_stack([np.zeros(len(i)), r[i] + 0.5 * gap, np.zeros(len(i)), -(r[j] + 0.5 * gap)])]
-    gaps, length = [gap], [r[i] + r[j]]
-    for k, (px, py, nx, ny) in enumerate(walls):
-        gap = (x - px) * nx + (y - py) * ny - r
-        near = np.flatnonzero(gap < reach)
-        gap, none = gap[near], np.zeros(len(near))
-        body.append(np.column_stack([np.full(len(near), count + k), near]))
-        normal.append(np.tile([float(nx), float(ny)], (len(near), 1)))
-        lever.append(np.column_stack([none, none, none, -(r[near] + 0.5 * gap)]))
-        gaps.append(gap)
-        length.append(2 * r[near])
-    gap, length = np.concatenate(gaps), np.concatenate(length)
+    there = touching(np.column_stack([x, y]), r, walls, reach)
+    gap, length, none = there.gap, there.length, np.zeros(len(there.gap))
     fixed = np.zeros((len(walls), 3))
     bias = np.zeros((len(gap), 3))
     bias[:, 0] = np.where(gap > 0, 1.0, relaxation) * gap / time_step
@@ -73,9 +55,9 @@ def of_disks(
         inverse_mass=np.vstack([inverse_mass, fixed]),
         free_velocity=free_velocity,
         velocity=free_velocity.copy(),
-        body=np.vstack(body).astype(np.int32),
-        normal=np.vstack(normal),
-        lever=np.vstack(lever),
+        body=there.body,
+        normal=there.normal,
+        lever=np.column_stack([none, there.arm[:, 0], none, there.arm[:, 1]]),
         bias=bias,
         adhesion=np.zeros(len(gap)),
         friction=np.full(len(gap), float(friction)),

@@ -1,4 +1,6 @@
-"""Asks the program oracle/siconos_solve of the build folder (tests/oracle) to solve a contact problem."""
+"""Asks the program oracle/siconos_solve of the build folder (tests/oracle) to solve a contact problem, of
+the plane or of space.
+"""
 
 from __future__ import annotations
 
@@ -27,8 +29,8 @@ class Answer:
     """What one of the two solvers found, and what our own measure says of it."""
 
     solver: str
-    impulse: np.ndarray  # (c, 3) [N s, N s, N m s]
-    velocity: np.ndarray  # (b, 3) [m/s, m/s, rad/s]
+    impulse: np.ndarray  # (c, 3) [N s, N s, N m s], in space (c, 6)
+    velocity: np.ndarray  # (b, 3) [m/s, m/s, rad/s], in space (b, 6)
     sweeps: int
     seconds: float  # of the solve alone
     converged: bool  # by the solver's own test
@@ -49,9 +51,9 @@ def program() -> Path:
 def solve_with_siconos(problem, folder, tolerance, max_iterations, check_every=1, rolling=True) -> Answer:
     """Siconos's nonlinear Gauss-Seidel from a cold start, on one thread; files go into ``folder``.
 
-    ``tolerance``: on the error of Siconos, the natural map relative to q in scaled units
-    (tests/oracle/siconos_solve.cpp); without ``rolling`` torques are left out and the two-dimensional solver for
-    friction alone is asked.
+    ``tolerance``: on the error of Siconos, the natural map in scaled units relative to |q|, or to |p| where that is
+    larger and the solver is another than rolling_fc2d (tests/oracle/siconos_solve.cpp); without ``rolling`` torques are left out and the solver for friction alone is
+    asked.
     """
     source, target = Path(folder) / "problem.h5", Path(folder) / "siconos.h5"
     contact.save(source, problem)
@@ -80,15 +82,13 @@ def solve_with_siconos(problem, folder, tolerance, max_iterations, check_every=1
 
 
 def error_by_siconos(problem, folder, impulse) -> tuple[float, float]:
-    """What Siconos's own stopping test says of impulses of shape (c, 3), whoever found them: (error, q/p).
-
-    q/p: size of what Siconos's error is relative to, over that of the impulses in the same scaled units, to which ours
-    is.
+    """What Siconos's own stopping test says of impulses of shape (c, 3), in space (c, 6), whoever found them: its error,
+    and the size that this is relative to, over that of the impulses in the same scaled units, to which ours is.
     """
     source = Path(folder) / "measured.h5"
     contact.save(source, replace(problem, impulse=impulse))
     said = _ask(source, "--measure")
-    return said["error"], said["q_over_p"]
+    return said["error"], said["scale_over_p"]
 
 
 def _ask(*arguments):
@@ -103,16 +103,13 @@ def _ask(*arguments):
         raise OracleError(f"siconos_solve gave no answer (status {done.returncode}): {said}") from None
 
 
-def solve_with_ours(problem, tolerance, max_iterations, method="accelerated", check_every=1) -> Answer:
-    """Our solver from a cold start, on one thread. ``tolerance``: on the natural map relative to the rms impulse."""
+def solve_with_ours(problem, tolerance, max_iterations, method="accelerated", check_every=1, start="cold") -> Answer:
+    """Our solver, on one thread. ``tolerance``: on the natural map relative to the rms impulse; ``start``: as
+    :func:`contact.solve` takes it.
+    """
     began = time.perf_counter()
     found = contact.solve(
-        problem,
-        method=method,
-        tolerance=tolerance,
-        max_iterations=max_iterations,
-        check_every=check_every,
-        start="cold",
+        problem, method=method, tolerance=tolerance, max_iterations=max_iterations, check_every=check_every, start=start
     )
     seconds = time.perf_counter() - began
     name = "ours" if method == "accelerated" else "ours, plain Gauss-Seidel"

@@ -1,0 +1,1 @@
+"""Checks of the law and the solver in space: spheres."""
