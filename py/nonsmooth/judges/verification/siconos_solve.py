@@ -51,8 +51,8 @@ def program() -> Path:
 def solve_with_siconos(problem, folder, tolerance, max_iterations, check_every=1, rolling=True) -> Answer:
     """Siconos's nonlinear Gauss-Seidel from a cold start, on one thread; files go into ``folder``.
 
-    ``tolerance``: on the error of Siconos, the natural map in scaled units relative to |q|, or to |p| where that is
-    larger and the solver is another than rolling_fc2d (tests/oracle/siconos_solve.cpp); without ``rolling`` torques are left out and the solver for friction alone is
+    ``tolerance``: on the error of Siconos, the natural map in scaled units relative to the norm of q, or to that
+    of p where it is larger and the solver is another than rolling_fc2d (tests/oracle/siconos_solve.cpp); without ``rolling`` torques are left out and the solver for friction alone is
     asked.
     """
     source, target = Path(folder) / "problem.h5", Path(folder) / "siconos.h5"
