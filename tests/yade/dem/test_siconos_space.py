@@ -83,6 +83,18 @@ def test_quick_checks_hold(tmp_path, check):
     )
 
 
+@pytest.mark.parametrize("rolling", [True, False])
+@pytest.mark.parametrize("seed", range(3))
+def test_bodies_that_are_no_spheres_agree(tmp_path, seed, rolling):
+    problem = sphere_problems.random_cluster(seed, 5, rolling=rolling, cohesion=rolling)
+    problem = sphere_problems.of_other_bodies(problem, seed)
+    theirs = siconos_solve.solve_with_siconos(problem, tmp_path, 1e-11, 200000)
+    ours = siconos_solve.solve_with_ours(problem, 1e-11, 200000)
+    assert theirs.converged and ours.converged
+    # 1e-11 of what stops bodies of 1 m/s, times 1,000 for the condition of W
+    assert np.abs(ours.velocity - theirs.velocity).max() < 1e-8 * np.abs(ours.velocity).max()
+
+
 @pytest.mark.parametrize("number", [0, 9, 18, 19])
 def test_kept_answers_are_what_siconos_says_today(tmp_path, number):
     problem = kept_answers.cluster(contact, "siconos_spheres.h5", number)

@@ -91,6 +91,16 @@ def test_impulses_of_the_programs_make_their_velocities():
     assert again.velocity == pytest.approx(found.velocity, abs=1e-12)
 
 
+@pytest.mark.parametrize("seed", range(4))
+def test_bodies_that_are_no_spheres_are_solved_the_same(seed):
+    problem = sphere_problems.random_cluster(seed, 2 + seed % 3, rolling=True, twisting=True, cohesion=True)
+    problem = sphere_problems.of_other_bodies(problem, seed)
+    known = cone_program.solve(problem)
+    assert known.violation < twisting.PROVEN  # rounding, times a thousand
+    difference = np.abs(solved(problem, tolerance=1e-13).velocity - known.velocity).max()
+    assert difference <= 1e-9 * np.abs(known.velocity).max()  # the tolerance, times the condition of W
+
+
 def test_contacts_with_play_are_refused():
     problem = sphere_problems.random_cluster(0, 2)
     with pytest.raises(ValueError, match="play"):

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import dataclasses
 import math
 
 import numpy as np
@@ -9,7 +10,7 @@ import numpy as np
 from ....contact import SpaceProblem
 from ..grains import touching
 
-__all__ = ["bed", "of_spheres", "random_cluster"]
+__all__ = ["bed", "of_other_bodies", "of_spheres", "random_cluster"]
 
 FLOOR = (0, 0, 0, 0, 0, 1)
 DOWN = np.array([0.0, 0.0, -1.0])
@@ -121,6 +122,22 @@ def random_cluster(seed, spheres, *, rolling=False, twisting=False, cohesion=Fal
     problem.twisting_arm[:] = 0.2 * problem.length * some() if twisting else 0
     problem.adhesion[:] = mass.mean() * some() if cohesion else 0  # the impulse that stops a sphere of 1 m/s
     return problem
+
+
+def of_other_bodies(problem, seed) -> SpaceProblem:
+    """The same problem of bodies that are no spheres: full tensors of inertia, and arms with a part across the normal, by
+    chance. What cannot turn still cannot.
+    """
+    dice = np.random.default_rng(seed)
+    inertia = problem.inverse_inertia.copy()
+    for b, size in enumerate(inertia[:, 0]):
+        axes = np.linalg.qr(dice.normal(size=(3, 3)))[0]
+        tensor = size * axes @ np.diag(dice.uniform(0.4, 1.0, 3)) @ axes.T
+        inertia[b] = tensor[[0, 1, 2, 1, 2, 0], [0, 1, 2, 2, 0, 1]]
+    n = problem.normal
+    arms = 0.3 * problem.length[:, None, None] * dice.normal(size=(len(n), 2, 3))
+    arms -= np.einsum("cad,cd->ca", arms, n)[:, :, None] * n[:, None]
+    return dataclasses.replace(problem, inverse_inertia=inertia, aside=arms.reshape(-1, 6))
 
 
 def _touching(dice, spheres):
