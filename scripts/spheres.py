@@ -1,8 +1,8 @@
 #!/usr/bin/env python3
-"""Spheres in space: round columns that collapse, hoppers, drums that turn and piles on a plate, with hard or with soft
-contacts.
+"""Spheres in space: round columns that collapse, hoppers, drums that turn, piles on a plate and triaxial tests, with hard
+or with soft contacts.
 
-scripts/spheres.py column|hopper|drum|pile [options of the scene] [--seeds S …] [--world hard|soft] [--out DIR]
+scripts/spheres.py column|hopper|drum|pile|triaxial [options of the scene] [--seeds S …] [--world hard|soft] [--out DIR]
 [--threads T] [--resume] scripts/spheres.py column --aspect 0.5,1,2 --size 6 scripts/spheres.py hopper --opening 5,6,7
 --seeds 1 2 3
 """
@@ -19,7 +19,7 @@ from pathlib import Path
 
 from yade.nonsmooth import commands
 from yade.nonsmooth.commands import arguments
-from yade.nonsmooth.studies.spheres import grains, report, study
+from yade.nonsmooth.studies.spheres import grains, report, study, triaxial
 from yade.nonsmooth.system import output_folder
 from yade.nonsmooth.system.whole_files import write_json
 from yade.nonsmooth.world import sphere_worlds as worlds
@@ -34,12 +34,16 @@ HELP = {
     "restitution": ("E", "of impacts; the soft world has none but what --damping leaves, and refuses another than 0"),
     "gravity": ("G", "[m/s²]"),
     "aspect": ("A,…", "height over radius of what rests in the tube"),
-    "size": ("N,…", "radius of the container in mean diameters"),
+    "size": ("N,…", "radius of the container, of a triaxial test the edge of its sample, in mean diameters"),
     "opening": ("N,…", "diameter of the opening in mean diameters"),
     "length": ("N", "length of the drum in mean diameters"),
     "filling": ("F,…", "share of the drum that is filled"),
     "froude": ("FR,…", "Froude number ω² R/g"),
     "turns": ("N", "how often the drum turns; the second half counts"),
+    "pressure": ("PA,…", "σ₃, which the sides bear [Pa]"),
+    "strain": ("E", "axial strain at the end; the last third counts for the critical state"),
+    "inertia": ("I,…", "inertial number, the rate of strain in units of √(σ₃/ρ)/d"),
+    "friction_share": ("S,…", "share of the friction while the sample is made: 1 loose, 0 dense"),
 }
 SOFT = {
     "stiffness": ("PA", arguments.positive, "Young's modulus [Pa], which has no default"),
@@ -55,6 +59,7 @@ WHAT = {
     "hopper": "a cylinder with a flat bottom, whose round opening is opened",
     "drum": "a drum that turns about a horizontal axis",
     "pile": "spheres on a round plate, whose tube is taken away: what stays has the angle of repose",
+    "triaxial": "spheres between six plates, pressed alike on all sides, then compressed along one axis",
 }
 
 
@@ -68,7 +73,7 @@ def numbers(text):
 
 def read_arguments():
     parser = argparse.ArgumentParser(prog="spheres.py", description=__doc__.partition("\n\n")[0])
-    kinds = parser.add_subparsers(dest="kind", required=True, metavar="column|hopper|drum|pile")
+    kinds = parser.add_subparsers(dest="kind", required=True, metavar="|".join(study.KINDS))
     for name, kind in study.KINDS.items():
         own = kinds.add_parser(name, help=WHAT[name], description=WHAT[name])
         usual = kind()
@@ -83,7 +88,9 @@ def read_arguments():
                     help=f"{words} (default: {getattr(usual, one.name):g})",
                 )
         arguments.add_seeds(own, [1], "seeds of sizes and places (default: 1)")
-        arguments.add_world(own, grains.PATH_PER_STEP, grains.TOLERANCE, "a free fall")
+        tested = name == triaxial.TriaxialTest.KIND
+        speed = "√(σ₃/ρ)" if tested else "a free fall"
+        arguments.add_world(own, grains.PATH_PER_STEP, grains.TOLERANCE, speed)
         own.add_argument(
             "--reach",
             type=arguments.positive,
@@ -92,12 +99,14 @@ def read_arguments():
         )
         for key, (letter, kind_of, words) in SOFT.items():
             own.add_argument(f"--{key.replace('_', '-')}", type=kind_of, metavar=letter, help=f"soft: {words}")
-        own.add_argument(
-            "--duration",
-            type=arguments.positive,
-            metavar="T",
-            help="longest course, in units of √(h₀/g), of a drum √(R/g) (default: that of the scene)",
-        )
+        own.set_defaults(duration=None)
+        if not tested:  # which ends at its strain
+            own.add_argument(
+                "--duration",
+                type=arguments.positive,
+                metavar="T",
+                help="longest course, in units of √(h₀/g), of a drum √(R/g) (default: that of the scene)",
+            )
         arguments.add_runs(own, f"out/{name}", "runs")
     return parser.parse_args()
 

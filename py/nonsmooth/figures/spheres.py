@@ -37,7 +37,7 @@ def course(seen, run, path=None, pdf=False):
         seen = [seen[k] for k in np.unique(np.linspace(0, len(seen) - 1, MOST).round().astype(int))]
     first = seen[0]
     began = np.full(int(max(p.number.max() for p in seen)) + 1, np.nan)
-    by = first.at[:, 2] if kind in ("drum", "hopper") else np.hypot(first.at[:, 0], first.at[:, 1])
+    by = first.at[:, 2] if kind in ("drum", "hopper", "triaxial") else np.hypot(first.at[:, 0], first.at[:, 1])
     began[first.number] = np.argsort(np.argsort(by, kind="stable"), kind="stable") * 5 // len(by)
     # what rolls far ahead of the mass would make all else small
     reach = max(float(np.percentile(np.abs(p.at[:, 0]), 97)) for p in seen) + 3 * size
@@ -71,15 +71,17 @@ def course(seen, run, path=None, pdf=False):
         ax.set_title(f"{p.time_s / unit:.1f} T", loc="right", fontsize=9, pad=2)
     for ax in axes[len(seen) :]:
         ax.set_visible(False)
-    middle = "R" if kind == "drum" else "h_0"
-    fig.supxlabel(f"x [m]          $T=\\sqrt{{{middle}/g}}$ = {unit:.3f} s", fontsize=9.5)
+    told = {"drum": r"\sqrt{R/g}", "triaxial": r"d\,\sqrt{\rho/\sigma_3}"}.get(kind, r"\sqrt{h_0/g}")
+    fig.supxlabel(f"x [m]          $T={told}$ = {unit:.3g} s", fontsize=9.5)
     fig.supylabel("z [m]", fontsize=9.5)
     return style.save(fig, path, pdf)
 
 
 def _draw_walls(ax, run):
-    kind, radius = run["scene"]["kind"], run["radius_m"]
+    kind, radius = run["scene"]["kind"], run.get("radius_m")
     line = dict(color=style.WALL, lw=1.2, zorder=0)
+    if kind == "triaxial":  # whose plates stand where the spheres end
+        return
     if kind == "drum":
         turn = np.linspace(0, 2 * math.pi, 200)
         ax.plot(radius * np.cos(turn), radius * np.sin(turn), **line)

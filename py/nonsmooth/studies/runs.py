@@ -402,15 +402,15 @@ class HeapRun(StudyRun):
 
 
 class SpheresRun(StudyRun):
-    """A run of a column, hopper, drum or pile of spheres in space."""
+    """A run of a column, hopper, drum, pile or triaxial test of spheres in space."""
 
     kind = "spheres"
     COLUMNS = sphere_columns.COMMON
-    FURTHER = sphere_columns.COLUMN | sphere_columns.HOPPER | sphere_columns.DRUM | sphere_columns.PILE
+    FURTHER = {name: column for kind in sphere_study.KINDS.values() for name, column in kind.COLUMNS.items()}
 
     @cached_property
     def scene(self):
-        """The RoundColumn, RoundHopper, TurningDrum or PlatePile that was run."""
+        """The RoundColumn, RoundHopper, TurningDrum, PlatePile or TriaxialTest that was run."""
         return sphere_study.KINDS[self._asked["kind"]](**self._asked["scene"])
 
     @property

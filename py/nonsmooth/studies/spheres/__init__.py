@@ -10,6 +10,7 @@
 
 * :mod:`grains`: what all scenes have in common, spheres, sizes and worlds;
 * :mod:`column`, :mod:`hopper`, :mod:`drum`, :mod:`pile`: the scenes, their walls, rows and results;
+* :mod:`triaxial`: the test between plates (:mod:`cell`), its sample (:mod:`pressing`) and course (:mod:`triaxial_course`);
 * :mod:`places`: where spheres are, in memory and as files;
 * :mod:`preparation`: spheres at rest in their container, made once for both worlds;
 * :mod:`scene`: the scene in a world;

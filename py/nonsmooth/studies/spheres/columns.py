@@ -2,7 +2,7 @@
 
 from ...records.columns import Column, count, declared
 
-__all__ = ["COLUMN", "COMMON", "DRUM", "HOPPER", "PILE"]
+__all__ = ["COLUMN", "COMMON", "DRUM", "HOPPER", "PILE", "TRIAXIAL"]
 
 #: {name: Column} of all scenes.
 COMMON = declared(
@@ -41,4 +41,28 @@ DRUM = declared(
 PILE = declared(
     Column("repose_deg", "deg", "angle of repose: slope of the flank between 20 and 80 % of its height; 0: no flank"),
     count("lost_spheres", "spheres that have fallen over the edge of the plate"),
+)
+#: Of a triaxial test; stresses are means over the row, positive in compression.
+TRIAXIAL = declared(
+    Column("strain", "1", "axial strain, 1 − H/H₀, positive in compression"),
+    Column("volumetric_strain", "1", "volume over that at the begin, less 1, positive in dilation"),
+    *(
+        Column(f"sigma_{name}_Pa", "Pa", f"stress on the {what}")
+        for name, what in (
+            ("left", "plate at low x"),
+            ("right", "plate at high x, which bears σ₃"),
+            ("front", "plate at low y"),
+            ("back", "plate at high y, which bears σ₃"),
+            ("bottom", "plate at low z"),
+            ("top", "plate at high z, which is driven"),
+        )
+    ),
+    Column("contacts_sigma1_Pa", "Pa", "axial stress by the forces of all contacts, at the end of the row"),
+    Column("contacts_sigma3_Pa", "Pa", "mean of both lateral stresses by them"),
+    Column("solid_fraction", "1", "packing fraction in the middle, two to three mean diameters away from the plates"),
+    Column(
+        "coordination", "1", "mean number of contacts of spheres two mean diameters away from them, without rattlers"
+    ),
+    Column("rattlers", "1", "share of spheres there that bear nothing"),
+    Column("inertial_number", "1", "rate of strain in units of 1/t_i at the present height"),
 )

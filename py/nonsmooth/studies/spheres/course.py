@@ -26,7 +26,7 @@ from . import places as files, preparation, scene as scenes
 from .columns import COMMON
 from .grains import SphereScene, SpheresError, check_run, key_of, world_of
 
-__all__ = ["columns_of", "run"]
+__all__ = ["columns_of", "common_row", "run"]
 
 RECORDS = 20  # to T
 REST_SPEED = 0.02  # √(g d), rms speed of what must rest, at rest ...
@@ -40,6 +40,25 @@ def columns_of(kind):
     """{name: Column} of the series of a kind of SphereScene."""
     own = [name for name in COMMON if name != "wall_s"]
     return {name: COMMON[name] for name in own} | kind.COLUMNS | {"wall_s": COMMON["wall_s"]}
+
+
+def common_row(found, bodies, still, gaps):
+    """Values of :data:`.columns.COMMON` for the Places ``found``, but for ``wall_s``. ``still``, bool (n,): those whose
+    speed counts; ``gaps``: between spheres and walls [m], arrays (n,).
+    """
+    mean, worst = measures.overlap(found.at, found.r, gaps)
+    weight = found.r**3
+    return {
+        "step": found.step,
+        "time_s": found.time_s,
+        "spheres": len(found),
+        "centroid_z_m": float(np.sum(weight * found.at[:, 2]) / np.sum(weight)),
+        "height_m": float(np.max(found.at[:, 2] + found.r)),
+        "speed_rms_m_per_s": math.sqrt(float(np.mean(found.speed[still] ** 2))) if still.any() else 0.0,
+        "energy_kinetic_J": scenes.kinetic_energy(bodies),
+        "overlap_mean_rel": mean,
+        "overlap_worst_rel": worst,
+    }
 
 
 class SphereCourse(driver.Course):
@@ -96,28 +115,13 @@ class SphereCourse(driver.Course):
         found = scenes.places(self.bodies, now, O.iter - s["begin"])
         if not len(found):
             raise SpheresError(f"no sphere is left after {now:g} s: give another shape")
-        still = self.scene.moving(found)
-        speed = math.sqrt(float(np.mean(found.speed[still] ** 2))) if still.any() else 0.0
-        mean, worst = measures.overlap(found.at, found.r, self.scene.wall_gaps(found))
-        weight = found.r**3
-        row = {
-            "step": found.step,
-            "time_s": now,
-            "spheres": len(found),
-            "centroid_z_m": float(np.sum(weight * found.at[:, 2]) / np.sum(weight)),
-            "height_m": float(np.max(found.at[:, 2] + found.r)),
-            "speed_rms_m_per_s": speed,
-            "energy_kinetic_J": scenes.kinetic_energy(self.bodies),
-            "overlap_mean_rel": mean,
-            "overlap_worst_rel": worst,
-            **self.scene.row(found, s),
-            "wall_s": s["wall_steps_s"],
-        }
+        common = common_row(found, self.bodies, self.scene.moving(found), self.scene.wall_gaps(found))
+        row = {**common, **self.scene.row(found, s), "wall_s": s["wall_steps_s"]}
         self.series.write(row)
         if "discharged_spheres" in row:
             s["left"] = [*s["left"], (now, row["discharged_spheres"])]
         slow = REST_SPEED * math.sqrt(self.scene.gravity * self.scene.diameter)
-        s["calm"] = s["calm"] + 1 if now > self.unit and speed < slow else 0
+        s["calm"] = s["calm"] + 1 if now > self.unit and common["speed_rms_m_per_s"] < slow else 0
         while s["kept"] < len(self.scene.FRAMES) and now >= (self.scene.FRAMES[s["kept"]] - 1e-9) * self.unit:
             files.write(self.folder / "snapshots" / f"{found.step:08d}.npz", found)
             s["kept"] += 1

@@ -1,4 +1,4 @@
-"""Spheres of a scene in space: what a column, a hopper, a drum and a pile have in common."""
+"""Spheres of a scene in space: what a column, a hopper, a drum, a pile and a triaxial test have in common."""
 
 from __future__ import annotations
 
@@ -14,11 +14,20 @@ from ...world import sphere_worlds as worlds
 from ...world.choice import check_choice
 from ..heaps.grains import RANGES
 
-__all__ = ["PATH_PER_STEP", "TOLERANCE", "SphereScene", "SpheresError", "check_run", "key_of", "world_of"]
+__all__ = [
+    "PATH_PER_STEP",
+    "TOLERANCE",
+    "SphereScene",
+    "Spheres",
+    "SpheresError",
+    "check_run",
+    "key_of",
+    "world_of",
+]
 
-PATH_PER_STEP = 0.1  # mean diameters, at the speed of a free fall from the top
+PATH_PER_STEP = 0.1  # mean diameters, at the speed of a free fall from the top, or at √(p/ρ) under a pressure
 TOLERANCE = 1e-4  # of the solver's residual, relative
-WEIGHT_OVERLAP = 0.02  # diameters, largest overlap under the own weight that soft contacts may have
+MOST_OVERLAP = 0.02  # diameters, largest overlap under its load that soft contacts may have
 MOST_SPHERES = 200_000
 MOST_STEPS = 1e9  # of a run, days of work even for a few spheres
 _SOFT = tuple(one.name for one in fields(worlds.SoftSpheres) if one.name != "diameter")
@@ -29,12 +38,12 @@ class SpheresError(UserError, ValueError):
 
 
 @dataclass(frozen=True)
-class SphereScene:
-    """Spheres and what they touch.
+class Spheres:
+    """Spheres and what they touch, without gravity.
 
     ``diameter``: mean by number [m]; ``size_spread``: largest over smallest diameter, sizes being uniform by volume in
     between; ``density`` [kg/m³]; ``friction``, ``rolling_friction``, ``twisting_friction`` (the last two in units of ℓ)
-    and ``restitution`` of all contacts, walls included; ``seed`` of sizes and places; ``gravity`` [m/s²], along −z.
+    and ``restitution`` of all contacts, walls included; ``seed`` of sizes and places.
     """
 
     diameter: float = 0.01
@@ -45,15 +54,16 @@ class SphereScene:
     twisting_friction: float = 0.0
     restitution: float = 0.0
     seed: int = 1
-    gravity: float = 9.81
 
     #: What it is, in its records.
     KIND = "spheres"
+    #: Of a scene that has none.
+    gravity = 0.0
 
     def __post_init__(self):
         checks.count("seed", self.seed, SpheresError, "give a whole number from 0", least=0)
-        for key, (least, most, unit) in RANGES.items():
-            self._number(key, f"give a number from {least:g} to {most:g} {unit}", least=least, most=most)
+        for key in ("diameter", "density"):
+            self._range(key)
         for key in ("friction", "rolling_friction", "twisting_friction"):
             self._number(key, "give 0 or more", least=0)
             wrong = units.wrong(key, getattr(self, key)) if key != "twisting_friction" else None
@@ -71,6 +81,10 @@ class SphereScene:
     def _number(self, key, remedy, **bounds):
         checks.number(key, getattr(self, key), SpheresError, remedy, **bounds)
 
+    def _range(self, key):
+        least, most, unit = RANGES[key]
+        self._number(key, f"give a number from {least:g} to {most:g} {unit}", least=least, most=most)
+
     # ---- a kind's own -------------------------------------------------------------------------------
     def _check(self):
         """Raises SpheresError for its own parameters."""
@@ -83,25 +97,36 @@ class SphereScene:
         """Number of spheres."""
         raise NotImplementedError
 
-    def inside(self, places, margin):
-        """Which of the ``places`` (n, 3) [m] are in the container, ``margin`` [m] away from its walls: bool (n,)."""
+    def sites(self, radii):
+        """Places (n, 3) [m] for spheres of these ``radii``, apart from each other. Raises SpheresError where they do
+        not fit.
+        """
         raise NotImplementedError
 
-    def box(self):
-        """Corners (low, high) [m] of a box around the container, which may be open to the top: high z is infinite."""
-        raise NotImplementedError
-
-    def fall(self):
-        """The highest fall [m] that a sphere may come to, by which the step of hard contacts is chosen."""
-        raise NotImplementedError
-
-    def depth(self):
-        """Depth [m] of what lies in the container."""
-        raise NotImplementedError
-
-    def stand(self, walls):
+    def stand(self, walls, top):
         """Puts facets and boxes into the scene by ``walls``, a :class:`.walls.RoundWalls`."""
         raise NotImplementedError
+
+    def time_step(self, path=PATH_PER_STEP):
+        """Step [s] for hard contacts, in which a sphere of a usual speed goes over ``path`` mean diameters."""
+        raise NotImplementedError
+
+    def overlap(self, stiffness):
+        """Overlap [mean diameters] of springs of this ``stiffness`` [Pa] under the load of the scene; and which spheres
+        have it, in words.
+        """
+        raise NotImplementedError
+
+    def effort(self):
+        """How long a run takes beside others of its kind, in any unit."""
+        raise NotImplementedError
+
+    def lasts(self, duration=None):
+        """Time [s] of a course; ``duration`` [T]: None: the usual one."""
+        raise NotImplementedError
+
+    def check_room(self):
+        """Raises SpheresError where its spheres do not fit, as far as it can be told at once."""
 
     # ---- sizes --------------------------------------------------------------------------------------
     def diameters(self):
@@ -119,6 +144,58 @@ class SphereScene:
         smallest = self.diameters()[0]
         drawn = np.random.default_rng([self.seed, 1]).random(self.count())
         return 0.5 * smallest / np.sqrt(1 - drawn * (1 - 1 / self.size_spread**2))
+
+    # ---- materials ----------------------------------------------------------------------------------
+    def material(self):
+        """The SphereMaterial of spheres and walls."""
+        names = ("density", "friction", "rolling_friction", "twisting_friction", "restitution")
+        return worlds.SphereMaterial(**{name: getattr(self, name) for name in names})
+
+    def check_world(self, world):
+        """Raises SpheresError or SphereWorldError for springs that its load would crush, and for what they have not."""
+        if world.name != "soft":
+            return
+        world.check(self.material())
+        overlap, load = self.overlap(world.stiffness)
+        if overlap > MOST_OVERLAP:
+            raise SpheresError(
+                f"stiffness {world.stiffness:g} Pa: spheres {load} would overlap by {100 * overlap:.2g} % of a diameter; "
+                f"give {1.05 * overlap / MOST_OVERLAP * world.stiffness:.2g} or more"
+            )
+
+    def plain(self):
+        """All parameters as JSON holds them."""
+        return {"kind": self.KIND, **asdict(self)}
+
+
+@dataclass(frozen=True)
+class SphereScene(Spheres):
+    """Spheres that rest in a container, under gravity. ``gravity`` [m/s²], along −z; the other parameters are those of
+    :class:`Spheres`.
+    """
+
+    gravity: float = 9.81
+
+    def __post_init__(self):
+        self._range("gravity")
+        super().__post_init__()
+
+    # ---- a kind's own -------------------------------------------------------------------------------
+    def inside(self, places, margin):
+        """Which of the ``places`` (n, 3) [m] are in the container, ``margin`` [m] away from its walls: bool (n,)."""
+        raise NotImplementedError
+
+    def box(self):
+        """Corners (low, high) [m] of a box around the container, which may be open to the top: high z is infinite."""
+        raise NotImplementedError
+
+    def fall(self):
+        """The highest fall [m] that a sphere may come to, by which the step of hard contacts is chosen."""
+        raise NotImplementedError
+
+    def depth(self):
+        """Depth [m] of what lies in the container."""
+        raise NotImplementedError
 
     def sites(self, radii):
         """Places (n, 3) [m] for spheres of these ``radii``, apart from each other, from the bottom up: a close-packed
@@ -150,30 +227,23 @@ class SphereScene:
         """
         return path * self.diameter / math.sqrt(2 * self.gravity * self.fall())
 
-    # ---- materials ----------------------------------------------------------------------------------
-    def material(self):
-        """The SphereMaterial of spheres and walls."""
-        names = ("density", "friction", "rolling_friction", "twisting_friction", "restitution")
-        return worlds.SphereMaterial(**{name: getattr(self, name) for name in names})
-
-    def check_world(self, world):
-        """Raises SpheresError or SphereWorldError for springs that its weight would crush, and for what they have
-        not.
+    def overlap(self, stiffness):
+        """As :meth:`Spheres.overlap`: the weight above a sphere at the bottom, ρ φ g H d² as of a column of its own, over
+        its spring E d/2.
         """
-        if world.name != "soft":
-            return
-        world.check(self.material())
-        # weight above a sphere at the bottom, ρ φ g H d² as of a column of its own, over its spring E d/2, in diameters
-        weight = 0.6 * self.density * self.gravity * self.depth() * 2
-        if weight > WEIGHT_OVERLAP * world.stiffness:
-            raise SpheresError(
-                f"stiffness {world.stiffness:g} Pa: spheres at the bottom would overlap by {100 * weight / world.stiffness:.2g} % of a diameter under the weight above; "
-                f"give {1.05 * weight / WEIGHT_OVERLAP:.2g} or more"
-            )
+        return 0.6 * self.density * self.gravity * self.depth() * 2 / stiffness, "at the bottom"
 
-    def plain(self):
-        """All parameters as JSON holds them."""
-        return {"kind": self.KIND, **asdict(self)}
+    def effort(self):
+        """As :meth:`Spheres.effort`."""
+        return self.count() * self.depth() / self.diameter
+
+    def lasts(self, duration=None):
+        """As :meth:`Spheres.lasts`."""
+        return (self.DURATION if duration is None else duration) * math.sqrt(self.depth() / self.gravity)
+
+    def check_room(self):
+        """As :meth:`Spheres.check_room`."""
+        self.sites(self.radii())
 
 
 def _layer(low, high, spacing, z, odd):
@@ -188,12 +258,12 @@ def _layer(low, high, spacing, z, odd):
 
 
 def world_of(scene, name="hard", path=None, tolerance=None, reach=None, **soft):
-    """A world for a SphereScene. ``name``: "hard" with the step that :meth:`SphereScene.time_step` gives for
+    """A world for Spheres. ``name``: "hard" with the step that :meth:`Spheres.time_step` gives for
     ``path``, ``tolerance`` and ``reach`` (None: 0.1, 1e-4 and 0.12); or "soft" with the fields of
     :class:`.sphere_worlds.SoftSpheres` but its diameters.
 
     Raises SpheresError or SphereWorldError for values that cannot be used, for those of the other world, and for what
-    :meth:`SphereScene.check_world` refuses.
+    :meth:`Spheres.check_world` refuses.
     """
     given = (("path", path), ("tolerance", tolerance), ("reach", reach))
     rigid = {key: value for key, value in given if value is not None}
@@ -209,18 +279,17 @@ def world_of(scene, name="hard", path=None, tolerance=None, reach=None, **soft):
     return made
 
 
-def check_run(scene, world, duration):
-    """Raises SpheresError before anything is computed where the spheres of a SphereScene do not fit into its container,
-    and where a course of ``duration`` [T] has more steps in the ``world`` than anybody waits for.
+def check_run(scene, world, duration=None):
+    """Raises SpheresError before anything is computed where the spheres of a scene do not fit into its container, and
+    where a course of ``duration`` [T], None: the usual one, has more steps in the ``world`` than anybody waits for.
     """
-    scene.sites(scene.radii())
-    usual = scene.DURATION
-    unit, step = math.sqrt(scene.depth() / scene.gravity), world.step_for([scene.material()])
-    steps = duration * unit / step if step > 0 else math.inf
+    scene.check_room()
+    step = world.step_for([scene.material()])
+    steps = scene.lasts(duration) / step if step > 0 else math.inf
     if steps <= MOST_STEPS:
         return
     over = 1.05 * steps / MOST_STEPS  # 5 %, so that what is given with two digits is taken
-    if duration > usual * 1.001:
+    if duration is not None and scene.lasts(duration) > 1.001 * scene.lasts():
         told, remedy = f"duration {duration:g} T", f"{duration / over:.2g} or less"
     elif world.name == "hard":
         path = world.time_step / scene.time_step(1.0)

@@ -9,11 +9,13 @@ from pathlib import Path
 import numpy as np
 
 from ... import records
-from ...figures import spheres as figures
-from ...measure import power_laws, sphere_laws as laws
+from ...figures import biaxial, spheres as figures, triaxial as tested
+from ...measure import power_laws, sphere_laws as laws, triaxial as measures
 from ...measure.statistics import over_seeds, told
+from ..laboratory import campaign
 from . import places
 from .grains import SpheresError
+from .triaxial import TriaxialTest
 
 __all__ = ["draw", "summarise", "table"]
 
@@ -34,16 +36,26 @@ VALUES = {
     ),
     "drum": (("tilt_deg", 1, "tilt [°]"), ("tilt_swing_deg", 1, "swing [°]"), ("tilt_surface_deg", 1, "surface [°]")),
     "pile": (("repose_deg", 1, "repose [°]"), ("final_height_rel", 2, "height"), ("lost_spheres", 0, "lost")),
+    "triaxial": (
+        ("isotropic_solid_fraction", 3, "Φ pressed"),
+        ("isotropic_coordination", 2, "z pressed"),
+        ("peak_deg", 1, "φ peak [°]"),
+        ("critical_deg", 1, "φ critical [°]"),
+        ("solid_fraction_end", 3, "Φ end"),
+        ("coordination_end", 2, "z end"),
+        ("contacts_difference_rel", 3, "contacts by plates − 1"),
+    ),
 }
 #: What tells cases of a kind apart, besides their seeds.
-LABELS = {"column": "aspect", "hopper": "opening", "drum": "froude", "pile": None}
-OTHERS = ("friction", "rolling_friction")  # ... where they differ
+LABELS = {"column": "aspect", "hopper": "opening", "drum": "froude", "pile": None, "triaxial": None}
+OTHERS = ("friction", "rolling_friction", "friction_share", "pressure", "inertia")  # ... where they differ
 
 
 def summarise(found):
     """``summary.json`` of {name: numbers of a run}: the ``runs``; ``groups``: runs that differ by their seeds alone,
     each with ``asked`` (its parameters), ``seeds``, ``world`` and means over the seeds with half of their 95 %
-    interval; of columns ``fits`` of run-out and height; ``tables`` for documentation pages.
+    interval; of columns ``fits`` of run-out and height; of triaxial tests under several pressures ``envelopes``;
+    ``tables`` for documentation pages.
     """
     if not found:
         raise SpheresError("there are no runs: give one or more")
@@ -51,6 +63,8 @@ def summarise(found):
     summary = {"kind": _kind(found), "runs": found, "groups": groups}
     if summary["kind"] == "column":
         summary["fits"] = _fits(found)
+    if summary["kind"] == "triaxial":
+        summary["envelopes"] = _envelopes(found)
     summary["tables"] = _tables(summary)
     return summary
 
@@ -106,10 +120,39 @@ def _fits(found):
     return fits
 
 
+def _envelopes(found):
+    """Of triaxial tests that differ by pressure and seed alone, under two pressures or more: a list of the laboratory's
+    summaries, see :func:`.laboratory.campaign.summarise`, each with what was ``asked`` and the ``world``.
+    """
+    by = {}
+    for one in found.values():
+        asked = {key: value for key, value in one["scene"].items() if key not in ("seed", "pressure", "kind")}
+        by.setdefault((tuple(sorted(asked.items())), one["world"]), []).append(one)
+    made = []
+    for (asked, world), runs in by.items():
+        if len({one["scene"]["pressure"] for one in runs}) > 1:
+            material = TriaxialTest(**dict(asked)).material()
+            whole = campaign.summarise(material, [_circles(one) for one in runs])
+            made.append({"asked": dict(asked), "world": world} | whole)
+    return made
+
+
+def _circles(one):
+    """A run's circles of the peak and of the critical state, as the laboratory has them."""
+    strain = one["scene"]["strain"]
+    return {
+        "confining_Pa": one["scene"]["pressure"],
+        "seed": one["scene"]["seed"],
+        "residual_between_strains": (measures.PLATEAU * strain, strain),
+        **{f"sigma{k}_peak_Pa": one[f"sigma{k}_peak_Pa"] for k in (1, 3)},
+        **{f"sigma{k}_residual_Pa": one[f"sigma{k}_critical_Pa"] for k in (1, 3)},
+    }
+
+
 def _label(group, groups):
     asked = group["asked"]
     names = [LABELS[asked["kind"]]] if LABELS[asked["kind"]] else []
-    names += [n for n in OTHERS if len({one["asked"][n] for one in groups}) > 1]
+    names += [n for n in OTHERS if len({one["asked"].get(n) for one in groups}) > 1]
     names = names or ["friction"]
     words = [f"{name.replace('_', ' ')} {asked[name]:g}" for name in names]
     if len({one["world"] for one in groups}) > 1:
@@ -138,7 +181,7 @@ def _tables(summary):
             row += [f"{float(law(group['aspect']['mean'])):.2f}" for law in laws.RUNOUT]
         row += [f"{group['overlap_worst_rel']:.1e}", told(group["wall_s"]["mean"], None, 0)]
         rows.append(row)
-    names = {"column": "Columns", "hopper": "Hoppers", "drum": "Drums", "pile": "Piles"}
+    names = {"column": "Columns", "hopper": "Hoppers", "drum": "Drums", "pile": "Piles", "triaxial": "Triaxial tests"}
     return [[f"{names[kind]}: means over seeds with half of their 95 % intervals", header, rows]]
 
 
@@ -159,6 +202,12 @@ def table(summary):
         lines.append(
             f"no run-out, as the mass is nowhere half a mean diameter high: {', '.join(edgeless)} (without friction it spreads without end)"
         )
+    for one in summary.get("envelopes", ()):
+        for kind, words in (("peak", "peak"), ("residual", "critical state")):
+            if one[f"friction_{kind}_deg"] is not None:
+                lines.append(
+                    f"friction {one['asked']['friction']:g}, {one['world']}, envelope of the {words}: c′ = {one[f'cohesion_{kind}_kPa']:.2g} kPa, φ′ = {one[f'friction_{kind}_deg']:.1f}°"
+                )
     unended = [name for name, one in summary["runs"].items() if not one["ended"] and summary["kind"] != "drum"]
     if unended:
         lines.append(f"did not come to their end: {', '.join(unended)}")
@@ -184,4 +233,11 @@ def draw(summary, out):
         drawn.append(figures.tilts(series, summary, out / "drum.png"))
     if kind == "pile" and len(summary["groups"]) > 1:
         drawn.append(figures.reposes(summary["groups"], out / "pile.png"))
+    if kind == "triaxial":
+        series = {name: records.read_series(out / "runs" / name / "series.csv") for name in summary["runs"]}
+        drawn.append(tested.curves(series, summary, out / "triaxial_curves.png"))
+        if len({group["asked"]["friction"] for group in summary["groups"]}) > 1:
+            drawn.append(tested.angles(summary["groups"], out / "triaxial.png"))
+        for k, one in enumerate(summary["envelopes"]):
+            drawn.append(biaxial.mohr(one, out / f"envelope{k + 1 if k else ''}.png"))
     return drawn

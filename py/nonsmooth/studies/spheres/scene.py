@@ -1,4 +1,4 @@
-"""The scene of a SphereScene in a world: walls, spheres, engines; and what is read of it."""
+"""The scene of Spheres in a world: walls, spheres, engines; and what is read of it."""
 
 from __future__ import annotations
 
@@ -12,7 +12,9 @@ from yade.wrapper import RotationEngine
 from .places import Places
 from .walls import RoundWalls
 
-__all__ = ["Bodies", "kinetic_energy", "open_gate", "places", "put", "take_out"]
+__all__ = ["FRICTIONS", "Bodies", "contacts", "kinetic_energy", "open_gate", "places", "put", "take_out"]
+
+FRICTIONS = ("friction", "rolling_friction", "twisting_friction")  # of a scene and of its material
 
 
 @dataclass
@@ -35,8 +37,8 @@ def put(scene, world, at, r, top, still=False):
     """Fills YADE's scene anew with walls and spheres in a world, and sets engines and step; returns the
     :class:`Bodies`.
 
-    ``at`` (n, 3), ``r`` (n,) [m]: of the spheres; ``top`` [m]: how high an open container is; ``still``: the gate's
-    walls and those that turn stay, and impacts give nothing back.
+    ``at`` (n, 3), ``r`` (n,) [m]: of the spheres; ``top`` [m]: how high an open container is, of
+    a test the edges of its cell (3,); ``still``: the gate's walls and those that turn stay, and impacts give nothing back.
     """
     stuff = scene.material()
     if still:
@@ -93,6 +95,22 @@ def places(bodies, time_s=0.0, step=0):
     speed = np.array([b.state.vel.norm() for _, b in there], float)
     r = np.array([b.shape.radius for _, b in there], float)
     return Places(at, r, np.array([k for k, _ in there], int), speed, float(time_s), int(step))
+
+
+def contacts(bodies):
+    """The contacts of the spheres, arrays: ``first``, ``second`` int (n,), spheres from 0 on and walls below 0;
+    ``normal`` (n,) and ``force`` (n, 3) [N], on the second by the first; ``branch`` (n, 3) [m] from the first one's
+    centre to the second's, with the point of the contact for the centre of a wall.
+    """
+    rows = []
+    for i in O.interactions:
+        if i.isReal and (normal := i.phys.normalForce).squaredNorm() > 0:
+            ends = [k - bodies.first if k >= bodies.first else -1 - k for k in (i.id1, i.id2)]
+            a, b = (O.bodies[k].state.pos if k >= bodies.first else i.geom.contactPoint for k in (i.id1, i.id2))
+            rows.append((*ends, normal.norm(), *(normal + i.phys.shearForce), *(b - a)))
+    rows = np.array(sorted(rows), float).reshape(-1, 9)  # YADE's order changes with the file of a checkpoint
+    first, second = rows[:, :2].T.astype(int)
+    return {"first": first, "second": second, "normal": rows[:, 2], "force": rows[:, 3:6], "branch": rows[:, 6:]}
 
 
 def kinetic_energy(bodies):

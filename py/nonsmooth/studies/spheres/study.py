@@ -14,10 +14,11 @@ from .drum import TurningDrum
 from .grains import SpheresError, check_run, key_of, world_of
 from .hopper import RoundHopper
 from .pile import PlatePile
+from .triaxial import TriaxialTest
 
 __all__ = ["KINDS", "one", "planned", "run"]
 
-KINDS = {kind.KIND: kind for kind in (RoundColumn, RoundHopper, TurningDrum, PlatePile)}
+KINDS = {kind.KIND: kind for kind in (RoundColumn, RoundHopper, TurningDrum, PlatePile, TriaxialTest)}
 
 
 def one(folder, kind, scene, world, duration):
@@ -25,32 +26,37 @@ def one(folder, kind, scene, world, duration):
     :func:`.spheres.grains.world_of`, a dictionary; ``duration``: see :func:`.spheres.course.run`. Returns the numbers
     of the run.
     """
-    from . import course
+    from . import course, triaxial_course
 
     made = KINDS[kind](**scene)
-    return course.run(made, world_of(made, **world), folder, duration, kept_runs.Progress(folder))
+    given = made, world_of(made, **world), folder
+    if kind == TriaxialTest.KIND:
+        return triaxial_course.run(*given, kept_runs.Progress(folder))
+    return course.run(*given, duration, kept_runs.Progress(folder))
 
 
 def planned(name, folder, scene, world, duration=None) -> side_by_side.Run:
     """A run as side_by_side.run takes it, checked: ``name``: for messages; ``world``: arguments of
-    :func:`.spheres.grains.world_of`, a dictionary; ``duration`` [T], None: that of its kind.
+    :func:`.spheres.grains.world_of`, a dictionary; ``duration`` [T], None: that of its kind, and of a triaxial test.
 
     Raises what :func:`.spheres.grains.world_of` and :func:`.spheres.grains.check_run` raise, and SpheresError for what
     is no scene and for a duration that is no number above 0.
     """
     if type(scene) not in KINDS.values():
         raise SpheresError(f"{checks.shown(scene)}: is no scene of spheres; give one of {', '.join(KINDS)}")
+    if duration is not None and scene.KIND == TriaxialTest.KIND:
+        raise SpheresError(f"duration {checks.shown(duration)}: a triaxial test ends at its strain; give that instead")
     if duration is not None:
         checks.number("duration", duration, SpheresError, "give a number above 0, in units of T", above=0)
     made = world_of(scene, **world)
-    check_run(scene, made, scene.DURATION if duration is None else duration)
+    check_run(scene, made, duration)
     return side_by_side.Run(
         name,
         Path(folder),
         one,
         {"kind": scene.KIND, "scene": asdict(scene), "world": world, "duration": duration},
         key_of(scene, made, duration),
-        scene.count() * scene.depth() / scene.diameter,
+        scene.effort(),
     )
 
 
