@@ -95,6 +95,7 @@ def angles(groups, path=None, pdf=False):
             _bars(ax, mine, lambda a: a["friction"] * share, name, label=named, **{**how, "ls": "none"})
     start, source = laws.PLATEAU_FROM
     end = left.get_xlim()[1]
+    left.set_xlim(left=min(-0.02, left.get_xlim()[0]))
     if end > start:
         left.axvspan(start, end, color=LINES["orange"], alpha=0.12, lw=0, label=f"plateau of {source}")
         left.set_xlim(right=end)

@@ -29,6 +29,7 @@ STUDIES = [
     ("spheres", sphere_columns.COMMON | sphere_columns.HOPPER, runs.SpheresRun),
     ("spheres", sphere_columns.COMMON | sphere_columns.DRUM, runs.SpheresRun),
     ("spheres", sphere_columns.COMMON | sphere_columns.PILE, runs.SpheresRun),
+    ("spheres", sphere_columns.COMMON | sphere_columns.TRIAXIAL, runs.SpheresRun),
 ]
 
 

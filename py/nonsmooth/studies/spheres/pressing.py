@@ -24,7 +24,7 @@ from . import scene as scenes
 from .cell import Cell
 from .grains import SpheresError
 
-__all__ = ["CACHE", "PLATE_MASS", "Pressed", "cache_path", "come_to_rest", "pressed"]
+__all__ = ["CACHE", "PLATE_MASS", "PressedSpheres", "cache_path", "come_to_rest", "pressed"]
 
 PRESSURE = 1e5  # Pa
 RATE = 0.02  # 1/t_i
@@ -42,7 +42,7 @@ LATER = ("restitution", "pressure", "strain", "inertia")
 
 
 @dataclass(frozen=True, eq=False)
-class Pressed:
+class PressedSpheres:
     """Spheres at rest: centres ``at`` (n, 3) and radii ``r`` (n,) [m] in a cell with the ``edges`` (3,) [m], in whose
     middle the origin is.
     """
@@ -52,7 +52,7 @@ class Pressed:
     edges: np.ndarray
 
 
-CACHE = cache.Cache("samples", Pressed)
+CACHE = cache.Cache("samples", PressedSpheres)
 
 
 def cache_path(test):
@@ -62,7 +62,7 @@ def cache_path(test):
 
 
 def pressed(test):
-    """The :class:`Pressed` sample of a TriaxialTest, from the cache or made in the running scene, which is emptied.
+    """The :class:`PressedSpheres` sample of a TriaxialTest, from the cache or made in the running scene, which is emptied.
 
     Raises SpheresError where the spheres do not come to rest.
     """
@@ -128,6 +128,6 @@ def _press(test):
             f"{', '.join(f'{s / PRESSURE:.3f}' for s in cell.stresses())} of it; try another seed"
         )
     middle, found = cell.low() + 0.5 * cell.edges(), scenes.places(bodies)
-    made = Pressed(found.at - middle, found.r, cell.edges())
+    made = PressedSpheres(found.at - middle, found.r, cell.edges())
     O.reset()
     return made

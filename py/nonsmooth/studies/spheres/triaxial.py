@@ -39,6 +39,8 @@ class TriaxialTest(Spheres):
     inertia: float = 1e-3
     friction_share: float = 1.0
 
+    __test__ = False  # no test of pytest's
+
     KIND = "triaxial"
     #: Columns of the series besides those of all scenes.
     COLUMNS = columns.TRIAXIAL

@@ -14,7 +14,7 @@ SOFT = ("--world", "soft", "--stiffness", "2e7")
 OTHER = {
     "diameter": 0.02, "size_spread": 1.3, "density": 2000, "friction": 0.4, "rolling_friction": 0.1, "twisting_friction": 0.02,
     "restitution": 0.2, "gravity": 5.0, "aspect": 1.1, "size": 6, "opening": 5, "length": 8, "filling": 0.2, "froude": 0.02,
-    "turns": 0.3,
+    "turns": 0.3, "pressure": 2e5, "strain": 0.1, "inertia": 5e-4, "friction_share": 0.5,
 }  # fmt: skip
 
 
@@ -90,6 +90,10 @@ def test_all_combinations_of_values_and_seeds_are_run(asked):
         (("pile", "--world", "soft", "--stiffness", "1e300"), "stiffness 1e+300: give a number above 0, to 1e+15"),
         (("column", "--path", "1e-9"), "path 1e-09: that is"),
         (("drum", "--size", 5, "--length", 3, "--filling", "0.1,0.5"), "size 5, length 3, filling 0.5: "),
+        (("triaxial", "--duration", 3), "unrecognized arguments: --duration"),
+        (("triaxial", "--gravity", 3), "unrecognized arguments: --gravity"),
+        (("triaxial", "--inertia", 0.1), "inertia 0.1: give the inertial number"),
+        (("triaxial", *SOFT[:2], "--stiffness", 1e6), "stiffness 1e+06 Pa: spheres under 100000 Pa would overlap by 20 %"),
     ),
 )
 def test_bad_input_is_one_line_before_anything_is_computed(in_process, tmp_path, words, said):
