@@ -99,8 +99,11 @@ def read_arguments():
         )
         for key, (letter, kind_of, words) in SOFT.items():
             own.add_argument(f"--{key.replace('_', '-')}", type=kind_of, metavar=letter, help=f"soft: {words}")
-        own.set_defaults(duration=None)
-        if not tested:  # which ends at its strain
+        own.set_defaults(duration=None, angle=None)
+        if tested:  # and ends at its strain
+            words = "tell the friction with which the critical state has this angle, by those of --friction"
+            own.add_argument("--angle", type=arguments.positive, metavar="DEG", help=words)
+        else:
             own.add_argument(
                 "--duration",
                 type=arguments.positive,
@@ -142,6 +145,8 @@ def main():
     with arguments.bar() as progress:
         found = study.run(cases, out, args.threads, args.resume, args.duration, lambda share: progress(share, words))
     summary = report.summarise(found)
+    if args.angle is not None:
+        summary["calibration"] = report.calibrated(summary, args.angle)
     write_json(out / "summary.json", summary)
     print(report.table(summary))
     drawn = report.draw(summary, out)

@@ -23,6 +23,7 @@ __all__ = [
     "axial",
     "backbone",
     "coordination",
+    "friction_at",
     "lateral",
     "solid_fraction",
     "strengths",
@@ -88,6 +89,19 @@ def strengths(series) -> dict:
         - 1,
     }
     return found
+
+
+def friction_at(friction, angle, wanted):
+    """The least friction of the contacts with which a sample has the ``wanted`` angle [°], by straight lines between
+    tests with ``friction`` and ``angle`` [°], sequences of one length; None where no two of them have it between them.
+    """
+    order = np.argsort(friction)
+    x, y = np.asarray(friction, float)[order], np.asarray(angle, float)[order]
+    for k in range(len(x) - 1):
+        if min(y[k], y[k + 1]) <= wanted <= max(y[k], y[k + 1]):
+            part = 0.0 if y[k] == y[k + 1] else (wanted - y[k]) / (y[k + 1] - y[k])
+            return float(x[k] + part * (x[k + 1] - x[k]))
+    return None
 
 
 def _blocks(values):

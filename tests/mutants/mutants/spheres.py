@@ -5,6 +5,9 @@ PY = "py/nonsmooth/"
 HEAPS, WORLDS = PY + "measure/sphere_heaps.py", PY + "world/sphere_worlds.py"
 GRAINS, COURSE, HOPPER, DRUM = (PY + f"studies/spheres/{name}.py" for name in ("grains", "course", "hopper", "drum"))
 STRENGTHS, LISTS, BELTS, ROOM = (PY + f"world/hardening/{name}.py" for name in ("strengths", "lists", "belts", "room"))
+PRESSED, CELL, TESTED, TEST = (PY + f"studies/spheres/{name}.py" for name in ("pressing", "cell", "triaxial_course", "triaxial"))
+STRENGTH = PY + "measure/triaxial.py"
+TRIAXIAL, TESTS, RESULTS = "plain:test_triaxial_measures.py", "test_triaxial_scene.py", "test_triaxial_course.py"
 TABLE = PY + "judges/yade_scripts/table.py"
 MEASURES, SCENES, RUNS = "plain:test_sphere_heaps.py", "test_sphere_scenes.py", "test_sphere_course.py"
 BOTH, HARDENING = "test_sphere_worlds.py", "test_hardening.py"
@@ -35,6 +38,19 @@ MUTANTS = (
     mutant("spheres-endless", GRAINS, "duration * unit / step if step > 0", "unit / step if step > 0", "a course without end is begun", SCENES + "::test_a_course_without_end_is_refused_with_what_would_do"),
     mutant("spheres-edgeless", PY + "studies/spheres/column.py", "edge / self.radius - 1 if edge else None", "edge / self.radius - 1", "a mass without an edge has run back to the axis",
            SCENES + "::test_a_mass_that_is_nowhere_half_a_diameter_high_has_no_run_out"),
+    # ---- triaxial tests
+    mutant("triaxial-cap", STRENGTH, "return x * x * (3 - 2 * x)", "return x", "a sphere that a face cuts has the volume of a cylinder", TRIAXIAL + "::test_spheres_that_faces_cut_count_with_what_is_within"),
+    mutant("triaxial-again", STRENGTH, "        there &= ~out", "        there &= ~out\n        return there, np.where(there, number, 0)", "rattlers are taken out once",
+           TRIAXIAL + "::test_rattlers_are_taken_out_again_and_again"),
+    mutant("triaxial-late", STRENGTH, "PLATEAU = 2 / 3", "PLATEAU = 1 / 3", "the critical state begins before", TRIAXIAL + "::test_the_critical_state_is_the_mean_of_the_last_third"),
+    mutant("triaxial-peak", STRENGTH, "np.argmax(major / minor)", "np.argmax(minor)", "a peak is where the sides bear most", TRIAXIAL + "::test_strengths_of_a_curve_with_a_peak"),
+    mutant("triaxial-unit", TEST, "math.sqrt(self.density / self.pressure)", "math.sqrt(self.pressure / self.density)", "the unit of time is turned round",
+           TESTS + "::test_the_unit_of_time_is_that_of_the_inertial_number"),
+    mutant("triaxial-area", CELL, "np.prod(edges) / edges", "np.prod(edges) / edges[::-1]", "plates bear the pressure on another's area", RESULTS + "::test_three_spheres_in_a_row_between_plates"),
+    mutant("triaxial-push", CELL, "[axis] + self._pushes[axis]", "[axis]", "the stress on a plate lacks what it bears", RESULTS + "::test_three_spheres_in_a_row_between_plates"),
+    mutant("triaxial-share", PRESSED, "test.friction_share * getattr(test, name)", "getattr(test, name)", "dense samples are loose", RESULTS + "::test_the_pressed_sample_rests_is_dense_and_made_once"),
+    mutant("triaxial-speed", TESTED, "-share * self.test.rate", "-2 * share * self.test.rate", "a sample is compressed twice as fast",
+           RESULTS + "::test_plates_bear_the_pressure_and_contacts_tell_the_same"),
     # ---- scripts that go hard
     mutant("harden-turning", PY + "world/hardening/comparison.py", "state.ori.conjugate() * state.angVel", "state.angVel", "a body that lies askew turns about the axes of the world",
            HARDENING + "::test_the_kinetic_energy_that_is_told_has_that_of_turning"),

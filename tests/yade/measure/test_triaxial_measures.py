@@ -93,6 +93,13 @@ def test_the_critical_state_is_the_mean_of_the_last_third():
     assert found["sigma1_critical_Pa"] == pytest.approx(1.5005e5, abs=51)
 
 
+def test_the_friction_of_an_angle_lies_between_those_beside_it():
+    friction, angle = (0.3, 0.1, 0.5), (20.0, 10.0, 21.0)
+    assert measures.friction_at(friction, angle, 15.0) == pytest.approx(0.2)
+    assert measures.friction_at(friction, angle, 20.5) == pytest.approx(0.4)
+    assert measures.friction_at(friction, angle, 25.0) is None and measures.friction_at((0.3,), (20.0,), 20.0) is None
+
+
 def test_a_test_that_ended_at_once_has_no_strength():
     found = measures.strengths(made(np.array([0.002, 0.004]), np.array([1.2, 1.3])))
     assert found["peak_deg"] is None and found["critical_deg"] is None and found["volumetric_strain_end"] == 0.0004

@@ -17,7 +17,7 @@ from . import places
 from .grains import SpheresError
 from .triaxial import TriaxialTest
 
-__all__ = ["draw", "summarise", "table"]
+__all__ = ["calibrated", "draw", "summarise", "table"]
 
 #: Numbers of each kind that are taken over seeds, with digits and words for tables.
 VALUES = {
@@ -149,6 +149,30 @@ def _circles(one):
     }
 
 
+def calibrated(summary, angle):
+    """The friction with which the critical state of triaxial tests has an ``angle`` [°], for each set of a
+    :func:`summarise` that differs by friction and seed alone: a list of what was ``asked``, the ``world``, ``angle_deg``
+    and ``friction``, None where the tests do not have the angle between them.
+    """
+    by = {}
+    for group in summary["groups"]:
+        asked = {key: value for key, value in group["asked"].items() if key != "friction"}
+        by.setdefault((tuple(sorted(asked.items())), group["world"]), []).append(group)
+    return [
+        {
+            "asked": dict(asked),
+            "world": world,
+            "angle_deg": angle,
+            "friction": measures.friction_at(
+                [group["asked"]["friction"] for group in groups],
+                [group["critical_deg"]["mean"] for group in groups],
+                angle,
+            ),
+        }
+        for (asked, world), groups in by.items()
+    ]
+
+
 def _label(group, groups):
     asked = group["asked"]
     names = [LABELS[asked["kind"]]] if LABELS[asked["kind"]] else []
@@ -208,6 +232,9 @@ def table(summary):
                 lines.append(
                     f"friction {one['asked']['friction']:g}, {one['world']}, envelope of the {words}: c′ = {one[f'cohesion_{kind}_kPa']:.2g} kPa, φ′ = {one[f'friction_{kind}_deg']:.1f}°"
                 )
+    for one in summary.get("calibration", ()):
+        found = "give more of --friction" if one["friction"] is None else f"friction {one['friction']:.3g}"
+        lines.append(f"critical state of {one['angle_deg']:g}°, {one['world']}: {found}")
     unended = [name for name, one in summary["runs"].items() if not one["ended"] and summary["kind"] != "drum"]
     if unended:
         lines.append(f"did not come to their end: {', '.join(unended)}")

@@ -115,7 +115,7 @@ class TriaxialCourse(driver.Course):
 
     def _frame(self):
         kept, frames = self.state["kept"], self.test.FRAMES
-        if kept < len(frames) and self.strain >= frames[kept] - 1e-9:
+        if kept < len(frames) and self.strain >= frames[kept] - 1e-9 and not self._over():  # the end is kept anyway
             self._write(f"{O.iter - self.state['begin']:08d}")
             self.state["kept"] += 1
 

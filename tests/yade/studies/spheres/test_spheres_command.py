@@ -59,7 +59,7 @@ def test_options_of_the_worlds_and_of_the_study(asked):
     assert one[1] == {"name": "soft", "stiffness": 2e7, "damping": 0.1, "step_share": 0.4}
     _, out, threads, resume, duration, _ = asked("drum", "--threads", 3, "--duration", 7, "--resume")
     assert (out.name, threads, resume, duration) == ("out", 3, True, 7.0)
-    assert asked("drum")[3:5] == (False, None)
+    assert asked("drum")[3:5] == (False, None) and asked("triaxial", "--angle", 20)[3:5] == (False, None)
 
 
 def test_all_combinations_of_values_and_seeds_are_run(asked):
@@ -93,7 +93,10 @@ def test_all_combinations_of_values_and_seeds_are_run(asked):
         (("triaxial", "--duration", 3), "unrecognized arguments: --duration"),
         (("triaxial", "--gravity", 3), "unrecognized arguments: --gravity"),
         (("triaxial", "--inertia", 0.1), "inertia 0.1: give the inertial number"),
-        (("triaxial", *SOFT[:2], "--stiffness", 1e6), "stiffness 1e+06 Pa: spheres under 100000 Pa would overlap by 20 %"),
+        (
+            ("triaxial", *SOFT[:2], "--stiffness", 1e6),
+            "stiffness 1e+06 Pa: spheres under 100000 Pa would overlap by 20 %",
+        ),
     ),
 )
 def test_bad_input_is_one_line_before_anything_is_computed(in_process, tmp_path, words, said):

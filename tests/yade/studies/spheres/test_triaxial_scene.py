@@ -60,7 +60,9 @@ def test_the_cloud_is_random_loose_and_the_seeds():
     assert 4 / 3 * math.pi * np.sum(r**3) / edge**3 == pytest.approx(triaxial.LOOSE, rel=1e-9)
     # as dense in its halves, to what some hundred spheres scatter (they keep apart: less than 1/√n)
     assert np.mean(at < 0.5 * edge) == pytest.approx(0.5, abs=0.05)
-    assert np.array_equal(at, Triaxial(size=8, seed=3).sites(r)) and not np.array_equal(at, Triaxial(size=8, seed=4).sites(r))
+    assert np.array_equal(at, Triaxial(size=8, seed=3).sites(r)) and not np.array_equal(
+        at, Triaxial(size=8, seed=4).sites(r)
+    )
 
 
 def test_the_number_of_spheres_fills_the_size():
@@ -112,6 +114,22 @@ def test_the_envelope_is_the_laboratorys():
     assert "envelope of the peak: c′ = " in report.table(summary) and "φ′ = 30.0°" in report.table(summary)
     ((_, header, rows),) = summary["tables"]
     assert len(rows) == 4 and rows[0][0] == "friction 0.5, pressure 100000" and len(header) == len(rows[0])
+
+
+def test_the_friction_of_a_wanted_angle_is_told():
+    runs = {
+        f"{mu}-{seed}": run(1e5, seed, friction=mu) | {"critical_deg": 100 * mu + seed}
+        for mu in (0.1, 0.2)
+        for seed in (1, 3)
+    }
+    summary = report.summarise(runs)
+    summary["calibration"] = report.calibrated(summary, 17.0)
+    (found,) = summary["calibration"]
+    # means of 12 and 22 degrees
+    assert found["friction"] == pytest.approx(0.15) and found["world"] == "hard"
+    assert "critical state of 17°, hard: friction 0.15" in report.table(summary)
+    summary["calibration"] = report.calibrated(summary, 30.0)
+    assert "critical state of 30°, hard: give more of --friction" in report.table(summary)
 
 
 def test_one_pressure_has_no_envelope():
