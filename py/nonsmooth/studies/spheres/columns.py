@@ -59,10 +59,8 @@ TRIAXIAL = declared(
     ),
     Column("contacts_sigma1_Pa", "Pa", "axial stress by the forces of all contacts, at the end of the row"),
     Column("contacts_sigma3_Pa", "Pa", "mean of both lateral stresses by them"),
-    Column("solid_fraction", "1", "packing fraction in the middle, two to three mean diameters away from the plates"),
-    Column(
-        "coordination", "1", "mean number of contacts of spheres two mean diameters away from them, without rattlers"
-    ),
+    Column("solid_fraction", "1", "packing fraction in the middle, 2 to 2.75 mean diameters away from the plates"),
+    Column("coordination", "1", "mean number of contacts of spheres there, without rattlers"),
     Column("rattlers", "1", "share of spheres there that bear nothing"),
     Column("inertial_number", "1", "rate of strain in units of 1/t_i at the present height"),
 )

@@ -33,9 +33,9 @@ ROW_STRAIN = 0.002  # between two rows
 PARTS = 20  # of a row, after each of which the forces on the plates are read, with soft contacts; else each step
 REST_LIMIT, REST_EVERY = 500.0, 4.0  # t_i, of the rest before the test and between two looks
 REST_SPEED = 1e-2  # √(p/ρ), that half of the spheres have at most then: the sample has come to rest before
-MARGINS = (2.0, 2.25, 2.5, 2.75)  # mean diameters from the plates, where it is measured: over one layer of those that
-# lie along a plate; coordination at the least of them ...
-MOST_MARGIN = 0.3  # ... but no more than this part of an edge
+# mean diameters from the plates, of the boxes over which is measured: over one layer of spheres that lie along a plate,
+# so that layers do not count; no more than a part of an edge
+MARGINS, MOST_MARGIN = (2.0, 2.25, 2.5, 2.75), 0.3
 
 
 class TriaxialCourse(driver.Course):
@@ -137,17 +137,19 @@ def measured(test, cell, bodies, found):
     have it; ``found``: the Places now.
     """
     contacts, edges, low = scenes.contacts(bodies), cell.edges(), cell.low()
-    margins = [np.minimum(margin * test.diameter, MOST_MARGIN * edges) for margin in MARGINS]
-    margin = margins[0]
-    inside = np.all((found.at > low + margin) & (found.at < low + edges - margin), axis=1)
     # a sphere in equilibrium has four contacts without friction, and two with it
     there, number = measures.backbone(
         contacts["first"], contacts["second"], contacts["normal"], len(found), 2 if test.friction > 0 else 4
     )
-    z, rattlers = measures.coordination(there, number, inside)
-    fraction = np.mean([measures.solid_fraction(found.at, found.r, low + m, low + edges - m) for m in margins])
+    rows = []
+    for margin in MARGINS:
+        away = np.minimum(margin * test.diameter, MOST_MARGIN * edges)
+        box = low + away, low + edges - away
+        inside = np.all((found.at > box[0]) & (found.at < box[1]), axis=1)
+        rows.append((measures.solid_fraction(found.at, found.r, *box), *measures.coordination(there, number, inside)))
+    means = (float(mean) for mean in np.mean(rows, axis=0))
     tensor = measures.stress(contacts["force"], contacts["branch"], float(np.prod(edges)))
-    return tensor, {"solid_fraction": float(fraction), "coordination": z, "rattlers": rattlers}
+    return tensor, dict(zip(("solid_fraction", "coordination", "rattlers"), means))
 
 
 def _begin(test, world):
