@@ -14,16 +14,7 @@ from ...world import sphere_worlds as worlds
 from ...world.choice import check_choice
 from ..heaps.grains import RANGES
 
-__all__ = [
-    "PATH_PER_STEP",
-    "TOLERANCE",
-    "SphereScene",
-    "Spheres",
-    "SpheresError",
-    "check_run",
-    "key_of",
-    "world_of",
-]
+__all__ = ["PATH_PER_STEP", "TOLERANCE", "SphereScene", "Spheres", "SpheresError", "check_run", "key_of", "world_of"]
 
 PATH_PER_STEP = 0.1  # mean diameters, at the speed of a free fall from the top, or at √(p/ρ) under a pressure
 TOLERANCE = 1e-4  # of the solver's residual, relative
