@@ -30,7 +30,9 @@ PRESSURE = 1e5  # Pa
 RATE = 0.02  # 1/t_i
 PATH = 0.1  # t_i, of a step
 PLATE_MASS = 0.05  # of the spheres' mass, of a plate that bears the pressure
-MET = 0.5  # of the pressure, on the plates at which they are let free
+# of the pressure, on the plates at which they are let free, a mean over so many steps: plates that are driven crush what
+# bears within some more
+MET, MET_STEPS = 0.5, 2
 # tolerances of the solver, and speeds in units of √(p/ρ) that half of the spheres have at most where it comes to them
 # (rattlers fly about for long): what the solver leaves open agitates spheres without friction, as much as it is
 STAGES = ((1e-4, 1e-2), (1e-5, 1e-3))
@@ -115,7 +117,7 @@ def _press(test):
             cell.advance(1)
             mean[:] += cell.stresses() / steps
 
-    met = until(lambda: mean.mean() > MET * PRESSURE, LIMIT, 10, shrink)
+    met = until(lambda: mean.mean() > MET * PRESSURE, LIMIT, MET_STEPS, shrink)
     for axis in range(3):
         cell.free(axis, PLATE_MASS * mass)
     rests = met

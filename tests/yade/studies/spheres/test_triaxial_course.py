@@ -76,8 +76,9 @@ def test_both_worlds_have_the_same_sample_and_bear_alike(runs):
         there = s["strain"] > 0.01
         return float(np.mean((measures.axial(s) / measures.lateral(s))[there])) - 1
 
-    # a sample of 140 spheres rearranges in jumps, which both worlds make at other strains
-    assert borne(b) == pytest.approx(borne(a), rel=0.2) and borne(a) > 0.5
+    # springs of this stiffness make the sample denser by a per cent, and bear more: 4 to 35 % in six such samples, half of
+    # that where they are ten times as stiff; and so few spheres rearrange in jumps, which both make at other strains
+    assert 0.85 < borne(b) / borne(a) < 1.45 and borne(a) > 0.5
     assert soft["volumetric_strain_end"] == pytest.approx(hard["volumetric_strain_end"], abs=0.01)
     # a dense sample dilates
     assert hard["volumetric_strain_end"] > 0
