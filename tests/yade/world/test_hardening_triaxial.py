@@ -66,6 +66,8 @@ def test_walls_bear_the_stress_that_is_asked_for():
     sample(triax)
     told = dict(harden(O).rows)
     assert "plates that bear it" in told["TriaxialStressController"]
+    assert "NewtonIntegrator (damping = 0)" in told["NewtonIntegrator (damping = 0.2)"]
+    assert not any("PyRunner" in what for what in told)  # what harden() adds is none of the script's
     settle(triax)
     # each pair of walls bears the goal, to what the sample still moves
     assert [triax.stress(k)[axis] for k, axis in ((0, 0), (2, 1), (4, 2))] == pytest.approx([-STRESS] * 3, rel=0.02)

@@ -127,13 +127,11 @@ def hard_engines(engines, shapes, in_plane, options):
                 before, after = triaxial.commands(steered.max_vel)
                 press, hold = ([PyRunner(command=c, iterPeriod=1, initRun=True)] for c in (before, after))
                 steered.max_vel = 0
-            made += [*press, ContactDynamicsEngine(**{**usual, **options}), _integrator(engine, in_plane), *hold]
+            moves = _integrator(engine, in_plane)
+            made += [*press, ContactDynamicsEngine(**{**usual, **options}), moves, *hold]
             integrated = len(made)
             rows.append(
-                (
-                    f"{name} (damping = {damping:g})",
-                    f"ContactDynamicsEngine and {type(made[-1]).__name__} (damping = 0)",
-                )
+                (f"{name} (damping = {damping:g})", f"ContactDynamicsEngine and {type(moves).__name__} (damping = 0)")
             )
         else:
             made.append(engine)

@@ -193,12 +193,9 @@ def _keep_periods(engines, soft_step, step):
     rows = []
     for engine in engines:
         if isinstance(engine, PeriodicEngine) and engine.iterPeriod > 0:
-            period = engine.iterPeriod * soft_step
-            rows.append(
-                (
-                    f"{type(engine).__name__} every {engine.iterPeriod} steps",
-                    f"every {max(1, round(period / step))} steps: after the same time",
-                )
-            )
-            engine.iterPeriod = max(1, round(period / step))
+            before, after = engine.iterPeriod, max(1, round(engine.iterPeriod * soft_step / step))
+            if after == before:
+                continue
+            rows.append((f"{type(engine).__name__} every {before} steps", f"every {after} steps: after the same time"))
+            engine.iterPeriod = after
     return rows
