@@ -83,7 +83,7 @@ void SpaceSeam::gather(Scene& scene, const Vector3r& gravity, const Relaxation& 
 #pragma omp parallel for schedule(static) num_threads(threads)
 	for (long k = 0; k < count; ++k) {
 		if (k + (long)soon < count) {
-			fetch<partOfGeometry>(links[k + soon].interaction->geom.get());
+			fetch<sizeof(ScGeom)>(links[k + soon].geom);
 			fetch<sizeof(NscdSpacePhys)>(links[k + soon].phys);
 		}
 		gatherContact(k);
@@ -240,19 +240,20 @@ void SpaceSeam::findContacts(Scene& scene)
 		for (long k = 0; k < count; ++k) {
 			if (k + (long)later < count) fetch<sizeof(Interaction)>(list[k + later].get());
 			if (k + (long)soon < count) {
-				fetch<partOfGeometry>(list[k + soon]->geom.get());
+				fetch<sizeof(ScGeom)>(list[k + soon]->geom.get());
 				fetch<sizeof(NscdSpacePhys)>(list[k + soon]->phys.get());
 			}
 			Interaction& I     = *list[k];
 			const Use    isFor = useOf(I);
 			if (isFor == Use::Refused) bad = std::min(bad, k);
 			if (isFor != Use::Solved) continue;
-			const int  id1 = I.getId1(), id2 = I.getId2();
-			const bool both    = bodies[id1].radius > 0 && bodies[id2].radius > 0;
-			const bool swapped = both ? id1 > id2 : bodies[id1].radius > 0;
-			const Real gap     = -static_cast<const ScGeom&>(*I.geom).penetrationDepth;
-			auto*      phys    = static_cast<NscdPhys*>(I.phys.get());
-			const Link link { &I, phys, swapped ? id2 : id1, swapped ? id1 : id2, swapped, gap };
+			const int   id1 = I.getId1(), id2 = I.getId2();
+			const bool  both    = bodies[id1].radius > 0 && bodies[id2].radius > 0;
+			const bool  swapped = both ? id1 > id2 : bodies[id1].radius > 0;
+			const auto* geom    = static_cast<const ScGeom*>(I.geom.get());
+			const Real  gap     = -geom->penetrationDepth;
+			auto*       phys    = static_cast<NscdPhys*>(I.phys.get());
+			const Link  link { &I, geom, phys, swapped ? id2 : id1, swapped ? id1 : id2, swapped, gap };
 			if (mustBeSolved(link)) part.links.push_back(link);
 			else
 				leaveOut(link, part.left);
@@ -278,11 +279,11 @@ void SpaceSeam::findContacts(Scene& scene)
 /// Bodies, normal and levers of a contact.
 void SpaceSeam::setFrame(const Link& link, space::Contact& c) const
 {
-	const auto& geom = static_cast<const ScGeom&>(*link.interaction->geom);
-	c                = {};
-	c.i              = link.i;
-	c.j              = link.j;
-	c.n              = Real(link.swapped ? -1 : 1) * ours(geom.normal);
+	const ScGeom& geom = *link.geom;
+	c                  = {};
+	c.i                = link.i;
+	c.j                = link.j;
+	c.n                = Real(link.swapped ? -1 : 1) * ours(geom.normal);
 	// between spheres the point in the middle of the gap keeps the angular momentum; where one hits a wall within the
 	// step its arm is the radius then
 	const bool both = bodies[c.i].radius > 0 && bodies[c.j].radius > 0;

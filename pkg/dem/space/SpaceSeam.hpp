@@ -51,11 +51,12 @@ private:
 	};
 	/// A contact's interaction, and how it stands to the order of ids.
 	struct Link {
-		Interaction* interaction;
-		NscdPhys*    phys;
-		int          i, j; // bodies of the contact
-		bool         swapped; // i is the interaction's second body
-		Real         gap;
+		Interaction*  interaction;
+		const ScGeom* geom;
+		NscdPhys*     phys;
+		int           i, j; // bodies of the contact
+		bool          swapped; // i is the interaction's second body
+		Real          gap;
 	};
 	/// A contact that is left out of the solve, with its bodies, normal, levers and length.
 	struct Left {
