@@ -33,6 +33,7 @@
 #include <pkg/dem/Ig2_Sphere_Sphere_ScGeom.hpp>
 #include <pkg/dem/NewtonIntegrator.hpp>
 #include <pkg/dem/ScGeom.hpp>
+#include <pkg/dem/TriaxialStressController.hpp>
 #include <pkg/dem/UniaxialStrainer.hpp>
 // clang-format off
 // their headers have classes that draw too, whose code a YADE without OpenGL has not: this library must load whatever
@@ -202,6 +203,8 @@ void checkLayout()
 	if (not static_cast<const LawTester&>(*tester).disPath.empty()
 	    or not static_cast<const LawTester&>(*tester).rotPath.empty())
 		misplaced("LawTester.disPath");
+	check("TriaxialStressController", "max_vel", &TriaxialStressController::max_vel, 0.375);
+	check("TriaxialStressController", "stressMask", &TriaxialStressController::stressMask, 5);
 	check("UniaxialStrainer", "active", &UniaxialStrainer::active, false);
 	check("UniaxialStrainer", "asymmetry", &UniaxialStrainer::asymmetry, 1);
 	check("UniaxialStrainer", "crossSectionArea", &UniaxialStrainer::crossSectionArea, 2.375);

@@ -170,6 +170,7 @@ LOOKED_AT = {
     "pkg/dem/Ig2_Sphere_Sphere_ScGeom": ["Ig2_Sphere_Sphere_ScGeom"],
     "pkg/dem/NewtonIntegrator": ["NewtonIntegrator"],
     "pkg/dem/ScGeom": ["ScGeom"],
+    "pkg/dem/TriaxialStressController": ["TriaxialStressController"],
     "pkg/dem/UniaxialStrainer": ["UniaxialStrainer"],
     "core/Omega": [],
     "core/Engine": [],
