@@ -1,7 +1,8 @@
 #!/usr/bin/env python3
-"""The same experiment with rigid disks (Contact Dynamics) and with YADE's soft contacts, side by side.
+"""The same experiment with rigid disks or spheres (Contact Dynamics) and with YADE's soft contacts, side by side.
 
   scripts/compare_hard_soft.py --scenario slope [--disks N] [--stiffness PA,PA,…] [--seeds S …] [--out DIR] [--threads T] [--resume]
+  scripts/compare_hard_soft.py --scenario round-column|triaxial [--size N] [--stiffness PA,PA,…] [--seeds S …] [--out DIR] [--threads T] [--resume]
   scripts/compare_hard_soft.py --cost [--disks N] [--stiffness PA,PA,…] [--out DIR] [--threads T] [--resume]
 """
 import os, sys

@@ -73,13 +73,13 @@ def open_comparison(folder) -> ComparisonRun:
 def run_comparison(scenario, out, seeds, threads=1, resume=False, **options) -> ComparisonRun:
     """Runs a comparison in the folder ``out``, as many runs at a time as ``threads``, and opens it.
 
-    ``scenario``: "slope", "biaxial", "column" or "pile"; ``seeds``: of the packings; ``options``: ``disks``,
-    ``stiffnesses`` [Pa], ``without`` and the others of comparison.course.compare; ``resume``: keep runs that have
+    ``scenario``: "slope", "biaxial", "column", "pile", or of spheres "round-column" or "triaxial"; ``seeds``: of the
+    packings; ``options``: ``disks``, ``stiffnesses`` [Pa], ``without`` and the others of comparison.course.compare; ``resume``: keep runs that have
     ended. Raises ComparisonError for a scenario, seeds, a folder or threads that make no sense, processes.RunError
     where values cannot be used, with the reason, or where a run fails; FolderError where another process works in the
     folder.
     """
-    known = ("slope", "biaxial", "column", "pile")
+    known = ("slope", "biaxial", "column", "pile", "round-column", "triaxial")
     if scenario not in known:
         raise ComparisonError(f"scenario {checks.shown(scenario)}: give one of {', '.join(known)}")
     checks.path("out", out, ComparisonError, runs.FOLDER)

@@ -6,7 +6,7 @@ HEAPS, WORLDS = PY + "measure/sphere_heaps.py", PY + "world/sphere_worlds.py"
 GRAINS, COURSE, HOPPER, DRUM = (PY + f"studies/spheres/{name}.py" for name in ("grains", "course", "hopper", "drum"))
 STRENGTHS, LISTS, BELTS, ROOM = (PY + f"world/hardening/{name}.py" for name in ("strengths", "lists", "belts", "room"))
 PRESSED, CELL, TESTED, TEST = (PY + f"studies/spheres/{name}.py" for name in ("pressing", "cell", "triaxial_course", "triaxial"))
-STRENGTH = PY + "measure/triaxial.py"
+STRENGTH, COMPARED = PY + "measure/triaxial.py", PY + "studies/comparison/spheres.py"
 TRIAXIAL, TESTS, RESULTS = "plain:test_triaxial_measures.py", "test_triaxial_scene.py", "test_triaxial_course.py"
 TABLE = PY + "judges/yade_scripts/table.py"
 MEASURES, SCENES, RUNS = "plain:test_sphere_heaps.py", "test_sphere_scenes.py", "test_sphere_course.py"
@@ -64,4 +64,13 @@ MUTANTS = (
     mutant("harden-room", ROOM, "box.state.ori.conjugate() * axis", "axis", "a box that is turned is taken for one that is not", HARDENING + "::test_a_sphere_between_boxes_with_room_is_taken"),
     mutant("scripts-explained", TABLE, 'min(fall, found.get("way [m]", 0) / size)', "fall", "what lies at rest may be anywhere after a long time",
            "test_yade_scripts.py::test_what_of_a_difference_is_explained"),
+    # ---- hard against soft
+    mutant("spheres-compared-reach", COMPARED, "sphere_worlds.HardSpheres.reach * max(1.0, case.step)", "sphere_worlds.HardSpheres.reach",
+           "spheres of a larger step meet what they did not know of", "test_compared_spheres.py::test_numerics_of_a_hard_run_are_multiples_of_the_scenes"),
+    mutant("spheres-compared-moving", COMPARED, "energy > 0.01 * energy.max()", "energy > 0", "the overlap of a collapse counts what rests",
+           "test_compared_spheres.py::test_a_column_is_measured_from_its_records"),
+    mutant("spheres-compared-front", COMPARED, 'series["edge_m"] - series["edge_m"][0]', 'series["edge_m"]', "the way of the edge begins at the radius",
+           "test_compared_spheres.py::test_a_column_is_measured_from_its_records"),
+    mutant("spheres-compared-ratio", COMPARED, '"stress": major / minor', '"stress": major / minor[0]', "σ₁ is over the σ₃ of the beginning",
+           "test_compared_spheres.py::test_a_triaxial_test_in_both_worlds"),
 )  # fmt: skip

@@ -358,6 +358,7 @@ WHERE = {
         "--aspect": (("--scenario", "column", "--aspect", 1.3), lambda a: a.named["options"]["aspect"], 1.3),
         "--friction": (("--scenario", "column", "--friction", 0.6), lambda a: a.named["options"]["friction"], 0.6),
         "--base": (("--scenario", "column", "--base", "smooth"), lambda a: a.named["options"]["base"], "smooth"),
+        "--size": (("--scenario", "triaxial", "--size", 7), lambda a: a.named["options"]["size"], 7.0),
         "--out": ((), lambda a: str(a.words[1]), "{out}"),
         "--threads": (("--threads", 7), lambda a: a.named["threads"], 7),
         "--resume": (("--resume",), lambda a: a.named["resume"], True),

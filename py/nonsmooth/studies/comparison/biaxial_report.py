@@ -2,11 +2,12 @@
 
 from __future__ import annotations
 
+from ...measure import strength
 from . import common, figures
 from .report import ReportSection
 from .slope_report import modes_section
 
-__all__ = ["QUESTIONS", "sections"]
+__all__ = ["QUESTIONS", "sections", "stress_section"]
 
 QUESTIONS = (
     (
@@ -16,20 +17,28 @@ QUESTIONS = (
 )
 
 
-def sections(out, scenario, plan, outcomes, summary):
-    """The scenario's own sections; figures go to ``out/figures``."""
-    folder, strain = out / "figures", ("abscissa", "axial strain [%]", 100.0)
-    columns = [("stress", "σ₁/σ₃ [-]", 1.0), ("volume", "volumetric strain [%]", 100.0)]
+STRAIN = ("abscissa", "axial strain [%]", 100.0)
+COLUMNS = [("stress", "σ₁/σ₃ [-]", 1.0), ("volume", "volumetric strain [%]", 100.0)]
+
+
+def stress_section(folder, plan, outcomes, window):
+    """Stress and volume along the strain; ``window``: strain over which stresses are running means."""
     curves = common.by_seed(plan, outcomes, common.curves), common.by_stiffness(plan, outcomes, common.curves)
     seeds, moduli = (
-        figures.courses(groups, columns, strain, folder / f"stress_{name}.png")
+        figures.courses(groups, COLUMNS, STRAIN, folder / f"stress_{name}.png")
         for groups, name in zip(curves, ("seeds", "stiffness"))
     )
     plots = [
-        (seeds, "All seeds. Stresses are running means over 0.2 % of strain."),
+        (seeds, f"All seeds. Stresses are running means over {100 * window:g} % of strain."),
         (moduli, f"All stiffnesses, seed {plan.ensemble[0][0].seed}."),
     ]
-    made, along = [ReportSection("Stress and volume", plots=plots)], ("strain", "axial strain [%]", 100.0)
+    return ReportSection("Stress and volume", plots=plots)
+
+
+def sections(out, scenario, plan, outcomes, summary):
+    """The scenario's own sections; figures go to ``out/figures``."""
+    folder, along = out / "figures", ("strain", "axial strain [%]", 100.0)
+    made = [stress_section(folder, plan, outcomes, strength.PEAK_WINDOW)]
     alive = [("bonds_alive", "bonds that hold", 1.0)]
     made.append(common.course_section("Bonds", folder / "bonds.png", plan, outcomes, alive, along))
     mean = [("speed_mean_m_per_s", "mean speed of disks [m/s]", 1.0)]
@@ -42,5 +51,5 @@ def sections(out, scenario, plan, outcomes, summary):
     caption = "Normal forces of contacts under compression, under the confining pressure before the test begins."
     made.append(common.force_section(folder, plan, outcomes, caption))
     if plan.fragile is not None:
-        made.append(common.bonds_section(folder, plan, outcomes, columns, strain, common.curves))
+        made.append(common.bonds_section(folder, plan, outcomes, COLUMNS, STRAIN, common.curves))
     return made

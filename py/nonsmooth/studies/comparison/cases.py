@@ -73,7 +73,7 @@ class Case:
 
     Hard: ``step``, ``tolerance``: factors on the scenario's own. Soft: ``stiffness``: Young's modulus [Pa]; ``step``:
     share of the stability limit; ``damping``, ``damping_moving``: non-viscous, at rest and while the mass moves (None:
-    not told apart); ``model``: see :mod:`yade.nonsmooth.soft`; ``fragile``: bonds do not yield before they break.
+    not told apart); ``model``: see :mod:`yade.nonsmooth.soft` (None: of spheres, which have one law); ``fragile``: bonds do not yield before they break.
     ``options``: what else the scenario takes.
     """
 

@@ -19,7 +19,9 @@ from . import (
     runs,
     slope_report,
     slopes,
+    spheres,
     summary,
+    triaxial_report,
 )
 from .cases import HARD_NUMERICS, CaseError, plan
 
@@ -31,6 +33,8 @@ SCENARIOS = {
     "biaxial": (biaxials, biaxial_report),
     "column": (collapses.COLUMN, collapse_report),
     "pile": (collapses.PILE, collapse_report),
+    "round-column": (spheres.COLUMN, collapse_report),
+    "triaxial": (spheres.TRIAXIAL, triaxial_report),
 }
 #: Parts of the plan that a comparison can do without, see :mod:`cases`.
 PARTS = ("numerics", "damping", "bonds")
@@ -61,6 +65,11 @@ def compare(
     """
     began, out = time.monotonic(), Path(out)
     experiment, pages = SCENARIOS[scenario]
+    space = getattr(experiment, "SPACE", False)
+    if space:
+        if disks is not None:
+            raise CaseError(f"--disks {disks}: the size of a {scenario} says how many spheres it has; give --size")
+        disks, plan_options["model"] = experiment.count(options or {}), None
     disks = experiment.DISKS if disks is None else disks
     if disks < 1:
         raise CaseError(f"--disks {disks}: give a number above 0")
@@ -87,6 +96,8 @@ def compare(
     cases = chosen.cases
     bonds, lost = losses.of_case(experiment, chosen.ensemble[0][1])
     check_stiffnesses(experiment, chosen.sweep)
+    for case in cases if space else ():
+        experiment.check(case)
     for case in {c.seed: c for c in cases}.values():
         progress(0.0, f"packing of seed {case.seed}")
         experiment.prepare(case)
@@ -157,10 +168,12 @@ def _lead(chosen, experiment, told):
     rest = (
         f"{soft.damping:g}" if constant else f"{soft.damping:g} at rest, {soft.damping_moving:g} while the mass moves"
     )
+    space = soft.model is None
+    lost = "" if space else ", but for the residual tensile strength σ_res, which soft contacts do not have,"
     return [
-        f"{experiment.TITLE}, {hard.disks} disks, seeds {', '.join(map(str, told['seeds']))}: the same packings and, but for the residual tensile strength σ_res, "
-        f"which soft contacts do not have, the same parameters with Contact Dynamics (“hard”) and with YADE's "
-        f"{soft.model} (“soft”). Soft contacts: Young's modulus {', '.join(f'{e:g}' for e in told['stiffnesses_Pa'])} Pa, {soft.stiffness:g} Pa "
+        f"{experiment.TITLE}, {hard.disks} {'spheres' if space else 'disks'}, seeds {', '.join(map(str, told['seeds']))}: the same packings and{lost} "
+        f"the same parameters with Contact Dynamics (“hard”) and with YADE's "
+        f"{soft.model or 'springs without cohesion'} (“soft”). Soft contacts: Young's modulus {', '.join(f'{e:g}' for e in told['stiffnesses_Pa'])} Pa, {soft.stiffness:g} Pa "
         f"where seeds are compared; "
         f"{told['bonds']}; time step {soft.step:g} of the stability limit; non-viscous damping {rest}.",
         *lacks(told),

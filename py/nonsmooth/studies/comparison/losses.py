@@ -15,9 +15,11 @@ def of_case(experiment, case):
     """Bonds between the disks of a soft Case in words, and what its model loses beside what cohesion_moment does:
     (text, list of texts).
 
-    ``experiment``: module or object with ``disks_of(case)``, see :mod:`outcomes`. Raises SoftError for a material that
+    ``experiment``: module or object with ``disks_of(case)``, but of spheres; see :mod:`outcomes`. Raises SoftError for a material that
     the model cannot have.
     """
+    if case.model is None:
+        return "no bonds between spheres in either world", []
     materials, diameter = experiment.disks_of(case)
     world = worlds.Soft(
         case.stiffness, diameter, model=case.model, damping=case.damping, step_share=case.step, fragile=case.fragile

@@ -14,6 +14,8 @@ import os
 from ...commands import arguments
 from ...world.soft import MODELS
 from ..laboratory.biaxial_test import BiaxialTest
+from ..spheres.column import RoundColumn
+from ..spheres.triaxial import TriaxialTest
 from . import cost, course
 from .cases import CaseError
 
@@ -25,13 +27,17 @@ SCENARIO_OPTIONS = {
     "biaxial": ("confining", "strain", "sides", "platens"),
     "column": ("aspect", "friction", "base"),
     "pile": ("aspect", "friction", "base"),
+    "round-column": ("size", "aspect", "friction"),
+    "triaxial": ("size", "friction", "confining", "strain"),
 }
-_ALL = ("disks", "stiffness", "ensemble_stiffness", "seeds", "model", "damping", "step_share", "without")
+_ALL = ("stiffness", "ensemble_stiffness", "seeds", "damping", "step_share", "without")
 _OWN = {
-    "slope": ("source", "bonds", "damping_moving"),
-    "biaxial": ("source", "bonds"),
-    "column": ("damping_moving",),
-    "pile": ("damping_moving",),
+    "slope": ("disks", "model", "source", "bonds", "damping_moving"),
+    "biaxial": ("disks", "model", "source", "bonds"),
+    "column": ("disks", "model", "damping_moving"),
+    "pile": ("disks", "model", "damping_moving"),
+    "round-column": (),
+    "triaxial": (),
 }
 #: Options that apply, by scenario and for "cost"; --out, --threads and --resume do to all.
 APPLIES = {name: (*_ALL, *_OWN[name], *SCENARIO_OPTIONS[name]) for name in SCENARIO_OPTIONS} | {
@@ -71,7 +77,7 @@ def _parser(about):
         "--disks",
         type=int,
         metavar="N",
-        help=f"about so many disks (default: the scenario's; with --cost {cost.DISKS})",
+        help=f"about so many disks, not of spheres, see --size (default: the scenario's; with --cost {cost.DISKS})",
     )
     add(
         "--stiffness",
@@ -109,7 +115,7 @@ def _parser(about):
         "--damping-moving",
         type=float,
         metavar="L",
-        help=f"while the mass moves, where it would brake it; not of a biaxial test (default: {usual['damping_moving']})",
+        help=f"while the mass moves, where it would brake it; not of a biaxial test, not of spheres (default: {usual['damping_moving']})",
     )
     add(
         "--step-share",
@@ -132,16 +138,35 @@ def _parser(about):
     )
     add("--steps", type=int, metavar="N", help=f"with --cost: steps that are timed (default: {usual['steps']})")
     add("--end", type=arguments.positive, metavar="SECONDS", help="slope: simulated time after settling, at most")
-    add("--confining", type=arguments.positive, metavar="MPA", help="biaxial: confining pressure [MPa] (default: 1)")
-    add("--strain", type=arguments.positive, help="biaxial: axial strain at the end (default: 0.06)")
+    add(
+        "--size",
+        type=arguments.positive,
+        metavar="N",
+        help=f"round-column, triaxial: radius of the column, edge of the sample, in mean diameters (default: {RoundColumn.size:g}, {TriaxialTest.size:g})",
+    )
+    add(
+        "--confining",
+        type=arguments.positive,
+        metavar="MPA",
+        help=f"biaxial, triaxial: confining pressure [MPa] (default: 1, {1e-6 * TriaxialTest.pressure:g})",
+    )
+    add(
+        "--strain",
+        type=arguments.positive,
+        help=f"biaxial, triaxial: axial strain at the end (default: 0.06, {TriaxialTest.strain:g})",
+    )
     add("--sides", choices=("rigid", "flexible"), help=f"biaxial: lateral boundaries (default: {BiaxialTest.sides})")
     add(
         "--platens",
         choices=("smooth", "rough"),
         help=f"biaxial: friction of the platens (default: {BiaxialTest.platens})",
     )
-    add("--aspect", type=arguments.positive, help="column, pile: height over width (pile: over half of it)")
-    add("--friction", type=float, metavar="MU", help="column, pile: friction of contacts")
+    add(
+        "--aspect",
+        type=arguments.positive,
+        help="column, pile, round-column: height over width (pile: over half of it; round-column: over the radius)",
+    )
+    add("--friction", type=float, metavar="MU", help="column, pile, round-column, triaxial: friction of contacts")
     add("--base", choices=("smooth", "rough"), help="column, pile: the floor")
     add("--out", default="out/compare", metavar="DIR", help="folder for the results (default: %(default)s)")
     add(

@@ -1,12 +1,14 @@
 """What every experiment hands to the comparison, whatever it is.
 
-An experiment is a module (:mod:`slopes`, :mod:`biaxials`) or an object (:mod:`collapses`) with
+An experiment is a module (:mod:`slopes`, :mod:`biaxials`) or an object (:mod:`collapses`, :mod:`spheres`) with
 
 * ``prepare(case)``, ``run(folder, **case)``, ``measure(case, folder, found)``: the disks, a run in a process of its
   own, and its :class:`Outcome`;
 * ``disks_of(case)``: section.Materials of its disks, a list, and their smallest and largest diameter [m]. Raises
   UserError for a case that cannot be;
 * ``least_stiffness(case)``, if it has one: Young's modulus [Pa] below which its soft runs would refuse;
+* ``SPACE``, true of one of spheres: it has no ``disks_of``, but ``count(options)``, the number of spheres, and
+  ``check(case)``, which raises UserError for a case that would refuse once it runs;
 * ``QUANTITIES``, ``KEYS``, ``CURVES``: what is compared; ``DEFAULT_STIFFNESSES``, ``ENSEMBLE_STIFFNESS`` [Pa],
   ``SOURCE``, ``DISKS``: defaults;
 * ``OVERLAP``: what its mean overlap is, a sentence; ``OVERLAP_WHEN``: when Outcome.overlap_rest and Outcome.overlap are

@@ -349,6 +349,8 @@ def test_the_script_refuses_in_one_line(tmp_path):
         (("--cost", "--scenario", "pile"), "--cost"),
         (("--scenario", "column", "--aspect", "6"), "--stiffness 1e+08"),
         (("--scenario", "biaxial", "--source", "no-such-rock"), "no-such-rock"),
+        (("--scenario", "round-column", "--disks", "500"), "--disks 500 with --scenario round-column"),
+        (("--scenario", "triaxial", "--stiffness", "1e6,1e8"), "stiffness 1e+06 Pa"),
     ):
         done = shell.run("compare_hard_soft.py", *words, "--out", tmp_path)
         assert done.returncode != 0 and wanted in done.stderr and "Traceback" not in done.stderr
