@@ -540,6 +540,15 @@ def test_a_script_of_chance_draws_the_same_in_both_runs_and_is_measured_before_i
     assert float(way[0]) == pytest.approx(0.8 * 0.5 * 9.81 * 0.05**2, rel=0.15)
 
 
+def test_a_script_that_waits_for_something_ends_when_its_time_is_over(tmp_path):
+    waits = CHANCE.replace("O.run(1000, True)", "while O.bodies[0].state.pos[2] > -1e9:\n    O.run(1000, True)")
+    assert waits != CHANCE
+    (tmp_path / "waits.py").write_text(waits)
+    done = launch(tmp_path, "--hard", "--time", "0.05", "waits.py")
+    assert done.returncode == 0, done.stderr
+    assert "asks for further steps" in done.stdout and re.search(r"^simulated \[s\] +0.05", done.stdout, re.M)
+
+
 def test_the_kinetic_energy_that_is_told_has_that_of_turning():
     """Of a body that lies askew too, whose inertia is about its own axes: it turns about its second."""
     body = O.bodies[O.bodies.append(sphere((0, 0, 0), 0.5))]

@@ -28,6 +28,7 @@ __all__ = ["Watch", "YadeCheckError", "seed_all", "stand_ins"]
 
 
 _NONE_OF_IT = ("elastPotential", "nonviscDamp", "plastDissip")
+_IDLE = 100  # times that a script may ask for steps after its last one
 
 
 class Watch:
@@ -44,6 +45,7 @@ class Watch:
         self.start = None  # what ``measure`` says before the first step
         self.hardened = None
         self.wall, self.steps, self.overlap = 0.0, 0, 0.0
+        self._idle = 0  # times that it asked for steps after its last one
         self._soft_step = None
         self._bodies = 0
 
@@ -126,10 +128,19 @@ class Watch:
         begin, first = time.perf_counter(), omega.iter
         if count > 0:
             run(omega, count, True)
+        elif bounds and min(bounds) == 0:
+            self._end_idle()
         self.wall += time.perf_counter() - begin
         self.steps += omega.iter - first
         if bounds and count == min(bounds) and self._measure is not None and self.found is None:
             self.found = self._measure(omega)  # a script may load or clear its scene afterwards
+
+    def _end_idle(self):
+        """Ends a script that asks for steps again and again after its last one, as one that waits for a stress."""
+        self._idle += 1
+        if self._idle > _IDLE:
+            print(f"the script asks for further steps after {self.steps} of them, its last; it ends here", flush=True)
+            raise SystemExit
 
     def run_on(self, omega):
         """Makes the steps that the script has left to a window's button, up to the bound."""

@@ -2,7 +2,7 @@
 
 YADE's controller moves a wall by what its stress misses over the stiffness of its contacts, which rigid ones have not.
 Here a wall under a stress is a plate that its force F presses: in each step h F/m is added to its velocity, up to the
-speed v, which is the controller's max_vel, and the solver finds how far it comes. With the mass m = |F| h/v a wall that
+speed v, which is the controller's max_vel, and the solver finds how far it comes. With the mass m = F h/v a wall that
 nothing holds goes at v at once, and one that is held bears F exactly. Strains go at the controller's rate, as before.
 The controller itself measures: it stands behind the integrator, where O.forces has what contacts bear. It sets the
 velocities of walls under a stress to zero, so they are kept in the command of the runner that presses, which is saved
