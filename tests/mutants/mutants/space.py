@@ -43,7 +43,7 @@ MUTANTS = (
            HARDENING + "::test_a_material_keeps_its_strengths"),
     mutant("harden-rolling", HARD + "/strengths.py", "0.5 * max(0.0, soft.etaRoll)", "max(0.0, soft.etaRoll)", "rolling resistance is twice YADE's", HARDENING + "::test_a_material_keeps_its_strengths"),
     mutant("harden-fall", HARD + "/steps.py", "math.sqrt(2 * g * fall)", "0", "the step forgets that spheres fall", HARDENING + "::test_the_step_is_a_tenth_of_the_smallest_diameter_at_the_greatest_speed"),
-    mutant("harden-period", HARD + "/scene.py", "engine.iterPeriod = max(1, round(period / step))", "pass", "engines act a hundred times too seldom", HARDENING + "::test_engines_act_after_the_same_time"),
+    mutant("harden-period", HARD + "/scene.py", "engine.iterPeriod = after", "pass", "engines act a hundred times too seldom", HARDENING + "::test_engines_act_after_the_same_time"),
     mutant("harden-functor", HARD + "/strengths.py", "restitution=restitution or 0", "restitution=0", "the functor's restitution is lost", HARDENING + "::test_restitution_comes_from_the_functor_or_the_caller"),
     mutant("harden-time", HARD + "/script.py", "max(1, round(steps * self._soft_step / omega.dt))", "steps", "a script's number of steps is taken for rigid ones", HARDENING + "::test_a_script_runs_hard_as_it_is"),
     mutant("harden-later", HARD + "/script.py", "self.hardened.take(omega.bodies)", "pass", "bodies that a script adds stay soft", HARDENING + "::test_a_script_runs_hard_as_it_is"),
