@@ -138,7 +138,7 @@ class Watch:
     def _end_idle(self):
         """Ends a script that asks for steps again and again after its last one, as one that waits for a stress."""
         self._idle += 1
-        if self._idle > _IDLE:
+        if self._idle == _IDLE:  # once: what is told at the end may ask for the rest too
             print(f"the script asks for further steps after {self.steps} of them, its last; it ends here", flush=True)
             raise SystemExit
 
