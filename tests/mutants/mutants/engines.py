@@ -378,7 +378,7 @@ MUTANTS = (
            "test_given_motion.py::test_jumps_and_moves_after_long_are_places_and_are_told_of"),
     mutant("check-tester", "pkg/dem/checks/SceneCheck.cpp", "return p[2] != 0;", "return p[1] != 0;", "a LawTester may not shear, and may leave the plane",
            "test_given_pairs.py::test_paths_that_leave_the_plane_are_refused"),
-    mutant("check-controller", "pkg/dem/checks/SceneCheck.cpp", '{ "TriaxialStateRecorder", &record }', '{ "TriaxialStateRecorders", &record }', "an engine that reads what rigid contacts have not is let run",
+    mutant("check-controller", "pkg/dem/checks/SceneCheck.cpp", "found != refused.end()", "found != refused.end() && found->second != &record", "an engine that reads what rigid contacts have not is let run",
            "test_controllers.py::test_what_steers_by_stiffness_or_cell_is_refused_with_what_works"),
     # ---- ways of a step
     mutant("way-radius", WAY, "!(longest.radii > 1)", "!(longest.radii > 100)", "a disk that goes far beyond its radius in a step is let through a wall", WAYS + "::test_a_disk_that_falls_in_a_step_that_is_far_too_long"),
