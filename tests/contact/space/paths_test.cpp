@@ -64,6 +64,29 @@ TEST(SpacePaths, AllInstructionsAndThreadsGiveTheSameBits)
 		}
 }
 
+// a solve without sweeps gives back what it began with, moved onto the thresholds by the law's own formulas
+TEST(SpacePaths, AWarmStartIsMovedOntoItsThresholds)
+{
+	Problem begun = mixed();
+	for (std::size_t k = 0; k < begun.contactCount(); ++k) {
+		const double much = k % 2 == 0 ? 1e-3 : 1e3;
+		begun.impulses[k] = { { much, -0.4 * much, 0.7 * much }, { 0.2 * much, 0.5 * much, -0.3 * much } };
+	}
+	SolverSettings none;
+	none.maxIterations = 0;
+	forEachPath(begun, none, [&begun](const SolverSettings& settings, const std::string& name) {
+		Problem p = begun;
+		solve(p, settings);
+		for (std::size_t k = 0; k < p.contactCount(); ++k) {
+			const Impulse wanted = project(p.contacts[k], begun.impulses[k]), &found = p.impulses[k];
+			// rounding of a dozen operations on the largest number
+			const double rounding = 1e-13 * (length(begun.impulses[k].f) + length(begun.impulses[k].m));
+			EXPECT_LE(length(found.f - wanted.f), rounding) << name << ", contact " << k;
+			EXPECT_LE(length(found.m - wanted.m), rounding) << name << ", contact " << k;
+		}
+	});
+}
+
 TEST(SpacePaths, TheResidualReportedIsTheIndependentOne)
 {
 	for (const bool solved : { false, true }) {

@@ -71,6 +71,24 @@ def test_who_is_hit_in_a_step_stops_at_the_next(floor, order, tmp_path):
     assert -np.diff(speeds) == pytest.approx([20, 20], rel=1e-7)
 
 
+@pytest.mark.parametrize("seed", range(6))
+def test_contacts_that_are_taken_in_together_stand_in_the_order_of_ids(floor, seed, tmp_path):
+    """Six rows in which the flying one hits its neighbour, which hits the next: six contacts are taken in at once, and
+    YADE's list has them in the order of places along its axis."""
+    rng = np.random.default_rng(seed)
+    rows = [[None] * 3 for _ in range(6)]
+    for k in rng.permutation(18):
+        row, place = divmod(int(k), 3)
+        speed = (100, 0, 0) if place == 0 else (0, 0, 0)
+        rows[row][place] = ball((1.2 * place + 0.3 * row, 5 * row, 9), speed)
+    begin(step=1e-2, reach=0.5)
+    O.step()
+    solver().dump(str(tmp_path / "step.h5"))
+    pairs = [tuple(pair) for pair in contact.load(str(tmp_path / "step.h5")).body.tolist()]
+    expected = [tuple(sorted((a.id, b.id))) for row in rows for a, b in zip(row, row[1:])]
+    assert pairs == sorted(expected)
+
+
 def test_what_is_fast_does_not_overlap(floor):
     """Balls that fall by a tenth of their diameter a step, from heights that differ by less than that."""
     speed = 0.1 * 2 * R / STEP
