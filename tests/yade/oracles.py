@@ -4,6 +4,7 @@ and in CI it is an error.
 import os
 import shutil
 
+import numpy as np
 import pytest
 from yade.nonsmooth.judges.verification import siconos_solve
 
@@ -44,3 +45,9 @@ def siconos(config):
                 _LastLine(f"Siconos was not asked; its kept answers alone were. {missing}"), "not held: Siconos"
             )
         pytest.skip(str(missing))
+
+
+def apart_from_siconos(problem, ours, folder):
+    """The largest difference of velocities between Siconos's answer to one problem and our own to another [m/s, rad/s]."""
+    theirs = siconos_solve.solve_with_siconos(problem, folder, 1e-10, 100000)
+    return np.abs(theirs.velocity - siconos_solve.solve_with_ours(ours, 1e-10, 100000).velocity).max()

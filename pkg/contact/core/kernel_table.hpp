@@ -11,7 +11,6 @@ namespace nonsmooth::contact {
 
 /// Where the numbers of blocks come from.
 template <class Dimension> struct BlockNumbersIn {
-	static constexpr std::int32_t          none = emptyLane;
 	const typename Dimension::Contact*     contacts;
 	const typename Dimension::Impulse*     impulses;
 	const typename Dimension::InverseMass* masses;

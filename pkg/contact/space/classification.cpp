@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <contact/core/classification.tpp>
 #include <contact/core/mass_ratio.hpp>
 #include <contact/space/problem_check.hpp>
 #include <contact/space/classification.hpp>
@@ -77,62 +78,18 @@ namespace {
 		result.extents[2] = { lowZ, highZ };
 	}
 
-	/// Pairs of contacts, how long they are, and whether they fit into blocks. Refuses what cannot be used.
-	void classifyContacts(const Problem& problem, int threads, bool blocks, Classification& result)
-	{
-		const long    count     = static_cast<long>(problem.contactCount());
-		const auto    bodies    = static_cast<std::int32_t>(problem.bodyCount());
-		const Vector* positions = problem.positions.empty() ? nullptr : problem.positions.data();
-		double        longestX = 0, longestY = 0, longestZ = 0;
-		long          bad  = count;
-		const double  jump = jumpOf(problem);
-		bool newPairs = result.pairs.size() != problem.contactCount(), newSimple = newPairs, jumps = false,
-		     plays = false;
-		result.pairs.resize(count);
-		result.simple.resize(count);
-// clang-format off
-#pragma omp parallel for schedule(static) num_threads(threads) reduction(min : bad) reduction(max : longestX, longestY, longestZ) reduction(|| : newPairs, newSimple, jumps, plays)
-		// clang-format on
-		for (long k = 0; k < count; ++k) {
-			const Contact& c = problem.contacts[k];
-			if (!usable(c, problem.impulses[k], bodies)) {
-				bad = std::min(bad, k);
-				continue;
-			}
-			const std::uint8_t i = result.traits[c.i], j = result.traits[c.j];
-			const MovablePair  pair { i & Classification::moves ? c.i : ~c.i,
-                                                 j & Classification::moves ? c.j : ~c.j };
-			MovablePair& before     = result.pairs[k];
-			newPairs                = newPairs || pair.i != before.i || pair.j != before.j;
-			before                  = pair;
-			const std::uint8_t fits = blocks && isSimple(c, i, j);
-			newSimple               = newSimple || fits != result.simple[k];
-			plays                   = plays || c.play > 0;
-			result.simple[k]        = fits;
-			jumps = jumps || isMassJump(problem.inverseMass[c.i], problem.inverseMass[c.j], jump);
-			if (!positions || !(i & j & Classification::moves)) continue;
-			const Vector d = positions[c.i] - positions[c.j];
-			longestX       = std::max(longestX, std::abs(d.x));
-			longestY       = std::max(longestY, std::abs(d.y));
-			longestZ       = std::max(longestZ, std::abs(d.z));
-		}
-		if (bad < count) refuseContact(problem, bad);
-		result.longest[0] = longestX;
-		result.longest[1] = longestY;
-		result.longest[2] = longestZ;
-		result.jumps      = jumps;
-		result.plays      = plays;
-		result.pairsKept  = !newPairs;
-		result.simpleKept = !newSimple;
-	}
-
 } // namespace
 
 void classify(const Problem& problem, int threads, bool blocks, Classification& result)
 {
 	checkSizes(problem);
 	classifyBodies(problem, threads, result);
-	classifyContacts(problem, threads, blocks, result);
+	classifyContacts(
+	        problem, threads, blocks, result, [](const auto&... all) { return isSimple(all...); },
+	        [](const auto&... all) { return isMassJump(all...); },
+	        [](const Vector& a, const Vector& b) {
+		        return std::array<double, 3> { a.x - b.x, a.y - b.y, a.z - b.z };
+	        });
 }
 
 } // namespace nonsmooth::contact::space

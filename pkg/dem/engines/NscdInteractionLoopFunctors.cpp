@@ -297,11 +297,10 @@ void NscdInteractionLoop::visitInSpace(const nscd::Resident& resident, int threa
 				const Interaction& next = *list[k + soon];
 				fetch<sizeof(ScGeom)>(next.geom.get());
 				fetch<sizeof(NscdSpacePhys)>(next.phys.get());
+				// between spheres the resident bodies do
 				if (!ours.spheres || next.functorCache.geom.get() != ours.spheres)
-					fetchObjects(
-					        { &next, next.geom.get(), next.phys.get(), next.getId1(),
-					          next.getId2() },
-					        *scene);
+					for (const int id : { next.getId1(), next.getId2() })
+						fetch<sizeof(Body)>((*scene->bodies)[id].get());
 			}
 			const shared_ptr<Interaction>& I = list[k];
 			if (!I->isReal() && areOutOfReach(*I, bodies)) continue;

@@ -26,26 +26,16 @@ size_t ContactSeam::recall()
 /// Takes contacts that were left out into the solve, into the order of ids.
 void ContactSeam::takeIn(const std::vector<size_t>& taken)
 {
-	const auto   key = [](const Contact& c) { return std::minmax(c.i, c.j); };
-	const size_t old = links.size(), all = old + taken.size();
-	links.resize(all);
-	problem.contacts.resize(all);
-	problem.impulses.resize(all);
-	warmStart.resize(all);
-	mergeFromBack(
-	        old, taken.size(),
+	const auto key = [](const Contact& c) { return std::minmax(c.i, c.j); };
+	mergeInto(
+	        links.size(), taken.size(),
 	        [&](size_t o, size_t a) { return key(problem.contacts[o]) > key(leftContacts[taken[a]]); },
-	        [&](size_t o, size_t to) {
-		        links[to]            = links[o];
-		        problem.contacts[to] = problem.contacts[o];
-		        problem.impulses[to] = problem.impulses[o];
-		        warmStart[to]        = warmStart[o];
-	        },
 	        [&](size_t a, size_t to) {
 		        links[to]            = leftLinks[taken[a]];
 		        problem.contacts[to] = leftContacts[taken[a]];
 		        problem.impulses[to] = warmStart[to] = {};
-	        });
+	        },
+	        links, problem.contacts, problem.impulses, warmStart);
 	eraseAt(leftLinks, taken);
 	eraseAt(leftContacts, taken);
 }

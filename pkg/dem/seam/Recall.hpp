@@ -35,15 +35,18 @@ std::vector<std::size_t> toBeTakenIn(std::size_t count, int& rounds, Gap gapAfte
 	return taken;
 }
 
-/// Merges `added` items, which are in order, into `old` ones that are, from the back, where there is room behind them:
-/// `isBehind(o, a)` compares, `move(o, to)` moves an old one, `place(a, to)` puts in one of the others.
-template <class Behind, class Move, class Place>
-void mergeFromBack(std::size_t old, std::size_t added, Behind isBehind, Move move, Place place)
+/// Merges `added` items, which are in order, into `old` ones that are, of which each array has a part: isBehind(o, a)
+/// compares an old one with one of the others, place(a, to) puts one of these in.
+template <class Behind, class Place, class... Parts>
+void mergeInto(std::size_t old, std::size_t added, Behind isBehind, Place place, std::vector<Parts>&... arrays)
 {
-	for (std::size_t to = old + added; added > 0;) {
+	(arrays.resize(old + added), ...);
+	for (std::size_t to = old + added; added > 0;) { // from the back, where there is room
 		--to;
-		if (old > 0 && isBehind(old - 1, added - 1)) move(--old, to);
-		else
+		if (old > 0 && isBehind(old - 1, added - 1)) {
+			--old;
+			((arrays[to] = arrays[old]), ...);
+		} else
 			place(--added, to);
 	}
 }

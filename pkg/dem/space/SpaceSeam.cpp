@@ -254,9 +254,11 @@ void SpaceSeam::findContacts(Scene& scene)
 			const Real  gap     = -geom->penetrationDepth;
 			auto*       phys    = static_cast<NscdPhys*>(I.phys.get());
 			const Link  link { &I, geom, phys, swapped ? id2 : id1, swapped ? id1 : id2, swapped, gap };
-			if (mustBeSolved(link)) part.links.push_back(link);
-			else
-				leaveOut(link, part.left);
+			if (const auto open = staysOut(link)) {
+				part.left.push_back({ link, *open });
+				forgetReactions(link);
+			} else
+				part.links.push_back(link);
 		}
 	}
 	if (bad < count) refuse(scene, *list[bad]);

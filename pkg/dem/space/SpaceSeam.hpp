@@ -13,6 +13,7 @@
 #include "NscdSpacePhys.hpp"
 #include <contact/space/problem.hpp>
 #include <contact/space/solver.hpp>
+#include <optional>
 
 namespace yade::nscd {
 
@@ -80,15 +81,15 @@ private:
 	[[noreturn]] void refuse(const Scene& scene, Interaction& interaction) const;
 	void              findContacts(Scene& scene);
 	void              setFrame(const Link& link, nonsmooth::contact::space::Contact& result) const;
-	bool              mustBeSolved(const Link& link) const;
-	void              leaveOut(const Link& link, std::vector<Left>& result) const;
-	void              takeIn(const std::vector<size_t>& taken);
-	void              gatherContact(size_t k);
-	bool              isHeld(size_t contact) const;
-	void              sumReactions();
-	void              scatterContact(size_t k, Sums& sums) const;
-	void              scatterBody(Scene& scene, size_t id);
-	void              sumBody(size_t id, const Vector3r& gravity, StepSums& sums) const;
+	std::optional<nonsmooth::contact::space::Contact> staysOut(const Link& link) const;
+	static void                                       forgetReactions(const Link& link);
+	void                                              takeIn(const std::vector<size_t>& taken);
+	void                                              gatherContact(size_t k);
+	bool                                              isHeld(size_t contact) const;
+	void                                              sumReactions();
+	void                                              scatterContact(size_t k, Sums& sums) const;
+	void                                              scatterBody(Scene& scene, size_t id);
+	void sumBody(size_t id, const Vector3r& gravity, StepSums& sums) const;
 
 	Relaxation                                            relaxation {};
 	int                                                   threads = 1;

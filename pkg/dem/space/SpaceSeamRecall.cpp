@@ -7,25 +7,24 @@ namespace yade::nscd {
 
 namespace space = nonsmooth::contact::space;
 
-/// A contact is left out where it is open and will not close in the step.
-bool SpaceSeam::mustBeSolved(const Link& link) const
+/// A contact that is open and will not close in the step, with its bodies, normal, levers and length; none where it must
+/// be solved for.
+std::optional<space::Contact> SpaceSeam::staysOut(const Link& link) const
 {
 	const NscdPhys& phys   = *link.phys;
 	const Real      widest = relaxation.openGap * phys.length;
-	if (phys.bonded || phys.breaks || link.gap <= widest) return true;
+	if (phys.bonded || phys.breaks || link.gap <= widest) return {};
 	space::Contact c;
 	setFrame(link, c);
 	const auto& v     = problem.freeVelocity;
 	const Real  speed = relativeVelocity(c, v[c.i], v[c.j]).n;
-	return !staysOpen(link.gap, speed, relaxation.step, widest);
+	if (!staysOpen(link.gap, speed, relaxation.step, widest)) return {};
+	return c;
 }
 
 /// What is left out bears nothing.
-void SpaceSeam::leaveOut(const Link& link, std::vector<Left>& result) const
+void SpaceSeam::forgetReactions(const Link& link)
 {
-	result.emplace_back();
-	result.back().link = link;
-	setFrame(link, result.back().contact);
 	auto& phys   = static_cast<NscdSpacePhys&>(*link.phys);
 	phys.touched = false;
 	if (phys.normal == 0 && phys.correction == 0) return;
@@ -56,24 +55,14 @@ void SpaceSeam::takeIn(const std::vector<size_t>& taken)
 	for (const size_t k : taken)
 		added.push_back(left[k].link);
 	std::sort(added.begin(), added.end(), [&](const Link& a, const Link& b) { return key(a) < key(b); });
-	const size_t old = links.size(), all = old + added.size();
-	links.resize(all);
-	problem.contacts.resize(all);
-	problem.impulses.resize(all);
-	warmStart.resize(all);
-	mergeFromBack(
-	        old, added.size(), [&](size_t o, size_t a) { return key(links[o]) > key(added[a]); },
-	        [&](size_t o, size_t to) {
-		        links[to]            = links[o];
-		        problem.contacts[to] = problem.contacts[o];
-		        problem.impulses[to] = problem.impulses[o];
-		        warmStart[to]        = warmStart[o];
-	        },
+	mergeInto(
+	        links.size(), added.size(), [&](size_t o, size_t a) { return key(links[o]) > key(added[a]); },
 	        [&](size_t a, size_t to) {
 		        links[to] = added[a];
 		        gatherContact(to);
 		        warmStart[to] = problem.impulses[to];
-	        });
+	        },
+	        links, problem.contacts, problem.impulses, warmStart);
 	eraseAt(left, taken);
 }
 

@@ -8,7 +8,7 @@ BLOCKS, RESIDUAL, STOPPING = ( "pkg/contact/core/contact_blocks.tpp", "pkg/conta
 ORDER, CUT, SCHEDULE = ("pkg/contact/core/sweep_order.cpp", "pkg/contact/core/strip_cut.cpp", "pkg/contact/core/strip_schedule.cpp")
 WAVES = "pkg/contact/core/strip_schedule.hpp"
 STRIPS, EXTRAPOLATION = "pkg/contact/core/active_strips.cpp", "pkg/contact/core/extrapolation.hpp"
-CHECK, SURVEY = "pkg/contact/plane/problem_check.hpp", "pkg/contact/plane/classification.cpp"
+CHECK, SURVEY, PAIRS = "pkg/contact/plane/problem_check.hpp", "pkg/contact/plane/classification.cpp", "pkg/contact/core/classification.tpp"
 GRID, NEAR, REGIONS = "pkg/neighbours/disk_grid.cpp", "pkg/neighbours/disk_grid.hpp", "pkg/neighbours/regions.cpp"
 CUT_KEPT = "classification.pairsKept && !moved && bins == binsBefore && scratch.width == widthBefore"  # of strip_cut.cpp
 
@@ -98,12 +98,12 @@ MUTANTS = (
     mutant("blocks-turning-wall", SURVEY, "(m.w != 0 || freeVelocity.w == 0)", "true", "walls that turn go into blocks, whose formulas do not know their levers",
            "gtest:*/OneContact.*"),
     # ---- what one solve leaves to the next
-    mutant("kept-second-body", SURVEY, "newPairs || pair.i != before.i || pair.j != before.j", "newPairs || pair.i != before.i",
+    mutant("kept-second-body", PAIRS, "newPairs || pair.i != before.i || pair.j != before.j", "newPairs || pair.i != before.i",
            "an order is kept though a contact's second body is another one", "gtest:Kept.*"),
-    mutant("kept-held", SURVEY, "newPairs || pair.i != before.i || pair.j != before.j",
+    mutant("kept-held", PAIRS, "newPairs || pair.i != before.i || pair.j != before.j",
            "newPairs || pair.i != before.i || MovablePair::bodyOf(pair.j) != MovablePair::bodyOf(before.j)",
            "colours are kept though the second body of contacts is held from now on, or let go", "gtest:Kept.*"),
-    mutant("kept-simple", SURVEY, "newSimple || fits != result.simple[k]", "newSimple", "contacts stay in blocks that they do not fit into any more", "gtest:Kept.*"),
+    mutant("kept-simple", PAIRS, "newSimple || fits != result.simple[k]", "newSimple", "contacts stay in blocks that they do not fit into any more", "gtest:Kept.*"),
     mutant("kept-strips", CUT, "moved || strip != result.stripOfBody[b]", "moved", "an order is kept though bodies are in other strips", "gtest:Kept.*"),
     mutant("kept-bins", CUT, CUT_KEPT, "classification.pairsKept && bins == binsBefore && scratch.width == widthBefore",
            "a cut into strips is kept though bodies are in other bins", "gtest:Kept.*"),
@@ -129,7 +129,7 @@ MUTANTS = (
            "what floats have found is not held against the law in doubles", "gtest:Precision.*"),
     mutant("single-not-finite", SOLVER, "rounded->iterations > 0 && std::isfinite(rounded->residual.rms)", "rounded->iterations > 0",
            "impulses that are too large for floats are taken from them", "gtest:Precision.*"),
-    mutant("single-bonds", KERNELS, "minOf<double>(from[k].adhesion.v[l], most)", "from[k].adhesion.v[l]", "bonds that hold whatever it costs have no threshold in floats",
+    mutant("single-bonds", "pkg/contact/core/block_loops.inc", "minOf<double>(from[k].adhesion.v[l], most)", "from[k].adhesion.v[l]", "bonds that hold whatever it costs have no threshold in floats",
            "gtest:Precision.*"),
     mutant("single-rows", SOLVER, "exact.rows[k].p = exact.rows[k].before = rounded->rows[k].p;", ";", "contacts outside blocks keep the impulses they began with",
            "gtest:Precision.*"),

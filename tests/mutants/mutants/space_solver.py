@@ -50,7 +50,7 @@ MUTANTS = (
     mutant("balls-fill-aside", FILL, "cross(spinJ, across(&Contact::asideJ)) - cross(spinI, across(&Contact::asideI))", "cross(spinJ, across(&Contact::asideJ))",
            "blocks do not know that a floor turns", MADE, PATHS),
     mutant("balls-fill-turn", FILL, "cross(leverJ * spinJ - leverI * spinI, n)", "cross(leverJ * spinJ + leverI * spinI, n)", "blocks take the first body's spin for its contrary", MADE, PATHS),
-    mutant("balls-fill-disc", FILL, "shrinkInto<V>(dot(r, r), most(rollingArm)) * r", "r", "a warm start has rolling impulses beyond their threshold", PATHS),
+    mutant("balls-fill-disc", FILL, "shrink<V>(r, most(rollingArm)) * r", "r", "a warm start has rolling impulses beyond their threshold", PATHS),
     # ---- what is looked at before
     mutant("balls-ball", SURVEY, "(!(j & Classification::turns) || isZero(c.asideJ))", "true", "arms across n go into blocks, which do not know them", MADE),
     mutant("balls-axis", CUT, "axis > 0 && places.axes == 2", "axis > 0", "strips across y and z do not follow the bodies' numbers", "gtest:SpaceSymmetry.AMirrored*"),

@@ -49,7 +49,7 @@ MUTANTS = (
     mutant("triaxial-area", CELL, "np.prod(edges) / edges", "np.prod(edges) / edges[::-1]", "plates bear the pressure on another's area", RESULTS + "::test_three_spheres_in_a_row_between_plates"),
     mutant("triaxial-push", CELL, "[axis] + self._pushes[axis]", "[axis]", "the stress on a plate lacks what it bears", RESULTS + "::test_three_spheres_in_a_row_between_plates"),
     mutant("triaxial-share", PRESSED, "test.friction_share * getattr(test, name)", "getattr(test, name)", "dense samples are loose", RESULTS + "::test_the_pressed_sample_rests_is_dense_and_made_once"),
-    mutant("triaxial-speed", TESTED, "-share * self.test.rate", "-2 * share * self.test.rate", "a sample is compressed twice as fast",
+    mutant("triaxial-speed", TESTED, "-share * self.scene.rate", "-2 * share * self.scene.rate", "a sample is compressed twice as fast",
            RESULTS + "::test_plates_bear_the_pressure_and_contacts_tell_the_same"),
     # ---- scripts that go hard
     mutant("harden-turning", PY + "world/hardening/comparison.py", "state.ori.conjugate() * state.angVel", "state.angVel", "a body that lies askew turns about the axes of the world",

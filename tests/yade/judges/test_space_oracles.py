@@ -8,6 +8,7 @@ import kept_answers
 import numpy as np
 import pytest
 import synthetic_slope as synthetic
+from held_claims import failed
 
 contact, registry = (synthetic.load(name) for name in ("contact", "judges.verification.registry"))
 cone_program, sphere_problems, twisting, siconos = (
@@ -70,9 +71,7 @@ def test_a_law_that_is_off_by_a_thousandth_shows(what):
 @pytest.mark.parametrize("check", [twisting.space_one_contact, twisting.space_twisting, twisting.space_all_graphs])
 def test_checks_hold(tmp_path, check):
     outcome = check(registry.Bench(tmp_path, quick=True))
-    assert outcome.passed, "\n".join(
-        f"{c.what}: {c.measured:g}, allowed {c.low:g} to {c.high:g}" for c in outcome.claims if not c.passed
-    )
+    assert outcome.passed, failed(outcome.claims)
 
 
 @pytest.mark.parametrize("what", ["friction", "rolling_arm", "twisting_arm", "adhesion", "bias", "lever"])

@@ -104,6 +104,19 @@ def with_quartiles(spread) -> str:
     return "{:.3g} ({:.3g} … {:.3g})".format(spread["median"], *spread["quartiles"])
 
 
+def step_rows(steps) -> list:
+    """Rows of a table of text with a column for each of ``steps``: what their stages take, and how much there is to do; "-"
+    where a step has no such thing.
+    """
+    # a stage that works in some steps only, as the collider does, shows in the mean alone
+    rows = [
+        (f"{name}, mean", *(number(m["stage_ms"][name]["mean"]) if name in m["stage_ms"] else "-" for m in steps))
+        for name in steps[0]["stage_ms"]
+    ]
+    counts = (("sweeps, mean", "sweeps_mean"), ("contacts", "contacts"), ("candidates", "candidates"))
+    return rows + [(name, *(number(m[key]) if key in m else "-" for m in steps)) for name, key in counts]
+
+
 def table(summary) -> str:
     """Tables of text: headlines, steps by stage, sweeps by path, cold starts."""
     rows = [
@@ -112,17 +125,7 @@ def table(summary) -> str:
     ]
     parts = [tabulate(rows, ("", "", "quartiles"), disable_numparse=True)]
     steps = [(f"{m['state']}, {m['threads']} thr.", m) for m in summary["steps"]]
-    stages = list(steps[0][1]["stage_ms"])
-    rows = [("step", *(with_quartiles(m["step_ms"]) for _, m in steps))]
-    # a stage that works in some steps only, as the collider does, shows in the mean alone
-    rows += [
-        (f"{name}, mean", *(number(m["stage_ms"][name]["mean"]) if name in m["stage_ms"] else "-" for _, m in steps))
-        for name in stages
-    ]
-    rows += [
-        (name, *(number(m[key]) if key in m else "-" for _, m in steps))
-        for name, key in (("sweeps, mean", "sweeps_mean"), ("contacts", "contacts"), ("candidates", "candidates"))
-    ]
+    rows = [("step", *(with_quartiles(m["step_ms"]) for _, m in steps)), *step_rows([m for _, m in steps])]
     parts.append(tabulate(rows, ("[ms]", *(name for name, _ in steps)), disable_numparse=True))
     found = summary["sweeps"]
     rows = [

@@ -7,7 +7,7 @@ from __future__ import annotations
 from tabulate import tabulate
 
 from . import sphere_bed
-from .report import number, with_quartiles
+from .report import number, step_rows, with_quartiles
 
 __all__ = ["HEADLINES", "summarise", "table"]
 
@@ -117,15 +117,7 @@ def _steps_table(found, threads):
     rows.append(("sweeps alone", *(with_quartiles(m["sweeps_ms"]) if "sweeps_ms" in m else "-" for m in steps)))
     solve = "solve_without_sweeps_ms"
     rows.append(("the solve without them, mean", *(number(m[solve]) if solve in m else "-" for m in steps)))
-    # a stage that works in some steps only, as the collider does, shows in the mean alone
-    rows += [
-        (f"{name}, mean", *(number(m["stage_ms"][name]["mean"]) if name in m["stage_ms"] else "-" for m in steps))
-        for name in steps[0]["stage_ms"]
-    ]
-    rows += [
-        (name, *(number(m[key]) if key in m else "-" for m in steps))
-        for name, key in (("sweeps, mean", "sweeps_mean"), ("contacts", "contacts"), ("candidates", "candidates"))
-    ]
+    rows += step_rows(steps)
     rows.append(("time step [s]", *(number(m["time_step_s"]) for m in steps)))
     heads = (f"[ms], {threads} thr., {found['bed']['spheres']} spheres", *(m["state"].replace("_", " ") for m in steps))
     return tabulate(rows, heads, disable_numparse=True)

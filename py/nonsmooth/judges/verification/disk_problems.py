@@ -8,7 +8,7 @@ import math
 import numpy as np
 
 from ...contact import ContactProblem
-from .grains import touching
+from .grains import draw_strengths, touching
 
 __all__ = ["below", "of_disks", "random_cluster"]
 
@@ -102,14 +102,8 @@ def random_cluster(seed, disks, *, rolling=False, cohesion=False) -> ContactProb
     velocity = dice.normal(0, 1, (disks, 3)) - [0, 1, 0]
     velocity[inverse_mass == 0] = 0  # what is held does not move
     problem = of_disks(x, y, r, [(0, 0, 0, 1)], inverse_mass=inverse_mass, free_velocity=velocity, reach=0.03)
-    contacts = len(problem.length)
-    problem.friction[:] = dice.uniform(0.1, 0.5, contacts)
-
-    def some():
-        return dice.uniform(0, 1, contacts) * (dice.random(contacts) < 2 / 3)
-
-    problem.rolling_arm[:] = 0.2 * problem.length * some() if rolling else 0
-    problem.adhesion[:] = mass.mean() * some() if cohesion else 0  # the impulse that stops a disk of 1 m/s
+    stops = mass.mean()  # a disk of 1 m/s
+    draw_strengths(problem, dice, stops, rolling=rolling, cohesion=cohesion)
     return problem
 
 

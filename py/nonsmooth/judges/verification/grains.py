@@ -1,4 +1,6 @@
-"""Who touches whom among disks in the plane or spheres in space, for contact problems that are made here."""
+"""Who touches whom among disks in the plane or spheres in space, and how strong contacts are, for contact problems that are
+made here.
+"""
 
 from __future__ import annotations
 
@@ -7,7 +9,7 @@ from typing import NamedTuple
 import numpy as np
 from scipy.spatial import cKDTree
 
-__all__ = ["Touching", "touching"]
+__all__ = ["Touching", "draw_strengths", "touching"]
 
 
 class Touching(NamedTuple):
@@ -44,3 +46,19 @@ def touching(place, r, walls, reach) -> Touching:
         parts.append((body, np.tile(inward, (len(near), 1)), gap, arm, 2 * r[near]))
     body, normal, gap, arm, length = map(np.concatenate, zip(*parts))
     return Touching(body.astype(np.int32), normal, gap, arm, length)
+
+
+def draw_strengths(problem, dice, impulse, *, rolling=False, twisting=False, cohesion=False):
+    """Gives the contacts of a problem friction by chance, and two thirds of them what else is asked for, the others none of
+    it; ``dice``: a numpy Generator; ``impulse``: h F_a of the strongest cohesion [N s].
+    """
+    contacts = len(problem.length)
+    problem.friction[:] = dice.uniform(0.1, 0.5, contacts)
+
+    def some():
+        return dice.uniform(0, 1, contacts) * (dice.random(contacts) < 2 / 3)
+
+    problem.rolling_arm[:] = 0.2 * problem.length * some() if rolling else 0
+    if twisting:  # which disks do not know
+        problem.twisting_arm[:] = 0.2 * problem.length * some()
+    problem.adhesion[:] = impulse * some() if cohesion else 0

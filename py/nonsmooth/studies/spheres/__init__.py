@@ -14,7 +14,8 @@
 * :mod:`places`: where spheres are, in memory and as files;
 * :mod:`preparation`: spheres at rest in their container, made once for both worlds;
 * :mod:`scene`: the scene in a world;
-* :mod:`course`: its course from the release on, with checkpoints;
+* :mod:`course`: its course from the release on;
+* :mod:`recorded_course`: rows, places and checkpoints of this course and of a test's;
 * :mod:`study`: many runs, kept and resumed;
 * :mod:`report`: tables and numbers over seeds, and pictures of many runs.
 

@@ -1,32 +1,21 @@
 """The course of a scene of spheres in a world: built at rest in its container, released, and followed to its end, with
-rows, places and checkpoints in a folder.
-
-Checkpoints are those of rigid spheres. A scene of soft contacts has none: a file changes the order of its contacts, and
-with it the last bits.
+rows, places and checkpoints in a folder (:mod:`recorded_course`).
 """
 
 from __future__ import annotations
 
 import math
-from dataclasses import asdict
-from pathlib import Path
-
 import numpy as np
 
 from yade import O
-from yade.wrapper import ContactDynamicsEngine
 
-from ... import records
-from ...course import driver
-from ...measure import sphere_heaps as measures
-from ...records import checkpoints
 from ...system import checks
 from ...world.stepping import advance, until
 from . import places as files, preparation, scene as scenes
-from .columns import COMMON
-from .grains import SphereScene, SpheresError, check_run, key_of, world_of
+from .grains import SphereScene, SpheresError, check_run, world_of
+from .recorded_course import RecordedCourse, follow
 
-__all__ = ["columns_of", "common_row", "run"]
+__all__ = ["run"]
 
 RECORDS = 20  # to T
 REST_SPEED = 0.02  # √(g d), rms speed of what must rest, at rest ...
@@ -36,51 +25,19 @@ SETTLE_LIMIT = 10.0  # T
 PARTS = 10  # of a row, after each of which what has fallen out is taken out
 
 
-def columns_of(kind):
-    """{name: Column} of the series of a kind of SphereScene."""
-    own = [name for name in COMMON if name != "wall_s"]
-    return {name: COMMON[name] for name in own} | kind.COLUMNS | {"wall_s": COMMON["wall_s"]}
-
-
-def common_row(found, bodies, still, gaps):
-    """Values of :data:`.columns.COMMON` for the Places ``found``, but for ``wall_s``. ``still``, bool (n,): those whose
-    speed counts; ``gaps``: between spheres and walls [m], arrays (n,).
-    """
-    mean, worst = measures.overlap(found.at, found.r, gaps)
-    weight = found.r**3
-    return {
-        "step": found.step,
-        "time_s": found.time_s,
-        "spheres": len(found),
-        "centroid_z_m": float(np.sum(weight * found.at[:, 2]) / np.sum(weight)),
-        "height_m": float(np.max(found.at[:, 2] + found.r)),
-        "speed_rms_m_per_s": math.sqrt(float(np.mean(found.speed[still] ** 2))) if still.any() else 0.0,
-        "energy_kinetic_J": scenes.kinetic_energy(bodies),
-        "overlap_mean_rel": mean,
-        "overlap_worst_rel": worst,
-    }
-
-
-class SphereCourse(driver.Course):
-    """From the release to the end; ``told``: what a checkpoint kept, see :meth:`_save`."""
+class SphereCourse(RecordedCourse):
+    """From the release to the end."""
 
     def __init__(self, scene, world, duration, folder, progress, told):
-        self.scene, self.world, self.duration, self.folder, self.progress = scene, world, duration, folder, progress
-        self.unsaved = None if world.name == "hard" else "a scene of soft spheres"
-        self.state, self.bodies = told["state"], scenes.Bodies(**told["bodies"])
-        self.unit = math.sqrt(self.state["height"] / scene.gravity)
+        super().__init__(scene, world, duration, folder, progress, told)
         self.limit, self.every = duration * self.unit, max(1, round(self.unit / RECORDS / O.dt))
-        self.series = records.SeriesWriter(
-            folder / "series.csv", columns_of(type(scene)), resume_from=told["series"], overwrite=True
-        )
-        super().__init__(self.series, spent=self.state)
         if told["series"] is None:
             self._look(None)
 
     @property
-    def now(self):
-        """Time since the release [s]."""
-        return (O.iter - self.state["begin"]) * O.dt
+    def unit(self):
+        """T [s]."""
+        return math.sqrt(self.state["height"] / self.scene.gravity)
 
     @property
     def rested(self):
@@ -110,31 +67,21 @@ class SphereCourse(driver.Course):
             self.state["out_kg"] += mass
 
     def _look(self, made):
-        ContactDynamicsEngine().view()
-        s, now = self.state, self.now
-        found = scenes.places(self.bodies, now, O.iter - s["begin"])
+        s, now, found = self.state, self.now, self._seen()
         if not len(found):
             raise SpheresError(f"no sphere is left after {now:g} s: give another shape")
-        common = common_row(found, self.bodies, self.scene.moving(found), self.scene.wall_gaps(found))
-        row = {**common, **self.scene.row(found, s), "wall_s": s["wall_steps_s"]}
-        self.series.write(row)
+        row = self._row(found, self.scene.moving(found), self.scene.wall_gaps(found), self.scene.row(found, s))
         if "discharged_spheres" in row:
             s["left"] = [*s["left"], (now, row["discharged_spheres"])]
         slow = REST_SPEED * math.sqrt(self.scene.gravity * self.scene.diameter)
-        s["calm"] = s["calm"] + 1 if now > self.unit and common["speed_rms_m_per_s"] < slow else 0
+        s["calm"] = s["calm"] + 1 if now > self.unit and row["speed_rms_m_per_s"] < slow else 0
         while s["kept"] < len(self.scene.FRAMES) and now >= (self.scene.FRAMES[s["kept"]] - 1e-9) * self.unit:
-            files.write(self.folder / "snapshots" / f"{found.step:08d}.npz", found)
+            self._write(found)
             s["kept"] += 1
         self.progress(min(1.0, now / self.limit))
 
-    def _save(self):
-        if self.unsaved is None:
-            told = {"state": self.state, "bodies": self.bodies.plain(), "series": self.series.mark()}
-            checkpoints.write(self.folder, key_of(self.scene, self.world, self.duration), told)
-
-    def _finish(self):
-        found = scenes.places(self.bodies, self.now, O.iter - self.state["begin"])
-        files.write(self.folder / "snapshots" / "end.npz", found)
+    def _results(self, series):
+        return self.scene.results(series, files.read(self.folder / "snapshots" / "end.npz"), self.state)
 
 
 def _begin(scene, world):
@@ -182,33 +129,4 @@ def run(scene, world=None, folder=None, duration=None, progress=lambda share: No
     duration = scene.DURATION if duration is None else duration
     checks.number("duration", duration, SpheresError, "give a number above 0, in units of T", above=0)
     check_run(scene, world, duration)
-    folder = Path(checks.path("folder", folder, SpheresError, "give the path of a folder for the run's records"))
-    (folder / "snapshots").mkdir(parents=True, exist_ok=True)
-    if world.name == "hard" and checkpoints.exists(folder):
-        told = checkpoints.read(folder, key_of(scene, world, duration), SpheresError)
-    else:
-        told = _begin(scene, world)
-    course = SphereCourse(scene, world, duration, folder, progress, told)
-    driver.drive(course)
-    return _numbers(course)
-
-
-def _numbers(course):
-    s, scene = course.state, course.scene
-    series = records.read_series(course.folder / "series.csv")
-    end = files.read(course.folder / "snapshots" / "end.npz")
-    return {
-        "world": course.world.name,
-        "settings": {k: list(v) if isinstance(v, tuple) else v for k, v in asdict(course.world).items()},
-        "scene": scene.plain(),
-        "spheres": s["spheres"],
-        **scene.results(series, end, s),
-        "ended": bool(course._ended()),
-        "time_s": float(series["time_s"][-1]),
-        "unit_s": course.unit,
-        "time_step_s": O.dt,
-        "steps": int(series["step"][-1]),
-        "wall_s": float(s["wall_steps_s"]),
-        "overlap_mean_rel": float(np.mean(series["overlap_mean_rel"])),
-        "overlap_worst_rel": float(np.max(series["overlap_worst_rel"])),
-    }
+    return follow(SphereCourse, _begin, scene, world, duration, folder, progress)

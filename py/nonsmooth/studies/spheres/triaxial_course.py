@@ -1,29 +1,21 @@
 """The course of a triaxial test in a world: the pressed sample comes to rest under σ₃, then the plate at high z is
-driven down while those at high x and y bear σ₃; rows, places and checkpoints in a folder.
+driven down while those at high x and y bear σ₃; rows, places and checkpoints in a folder (:mod:`recorded_course`).
 
-The driven plate comes to its speed over the strain :data:`RAMP`, as in the biaxial test. Checkpoints are those of rigid
-spheres.
+The driven plate comes to its speed over the strain :data:`RAMP`, as in the biaxial test.
 """
 
 from __future__ import annotations
 
-from dataclasses import asdict
-from pathlib import Path
-
 import numpy as np
 
 from yade import O
-from yade.wrapper import ContactDynamicsEngine
 
-from ... import records
-from ...course import driver
 from ...measure import triaxial as measures
-from ...records import checkpoints
 from ...system import checks
-from . import places as files, pressing, scene as scenes
+from . import pressing, scene as scenes
 from .cell import PLATES, Cell
-from .course import columns_of, common_row
-from .grains import SpheresError, key_of, world_of
+from .grains import SpheresError, world_of
+from .recorded_course import RecordedCourse, follow
 from .triaxial import TriaxialTest
 
 __all__ = ["ROW_STRAIN", "run"]
@@ -38,40 +30,38 @@ REST_SPEED = 1e-2  # √(p/ρ), that half of the spheres have at most then: the 
 MARGINS, MOST_MARGIN = (2.0, 2.25, 2.5, 2.75), 0.3
 
 
-class TriaxialCourse(driver.Course):
-    """From rest under σ₃ to the end; ``told``: what a checkpoint kept, see :meth:`_save`."""
+class TriaxialCourse(RecordedCourse):
+    """From rest under σ₃ to the end."""
 
-    def __init__(self, test, world, folder, progress, told):
-        self.test, self.world, self.folder, self.progress = test, world, folder, progress
-        self.unsaved = None if world.name == "hard" else "a test of soft spheres"
-        self.state, self.bodies = told["state"], scenes.Bodies(**told["bodies"])
+    NAME = "test"
+
+    def __init__(self, test, world, duration, folder, progress, told):
+        super().__init__(test, world, duration, folder, progress, told)
         self.cell = Cell(test.pressure)
-        self.series = records.SeriesWriter(
-            folder / "series.csv", columns_of(TriaxialTest), resume_from=told["series"], overwrite=True
-        )
-        super().__init__(self.series, spent=self.state)
         if told["series"] is None:
             self._frame()
 
     @property
-    def now(self):
-        """Time since the begin of the strain [s]."""
-        return (O.iter - self.state["begin"]) * O.dt
+    def unit(self):
+        """That of the inertial number, t_i [s]."""
+        return self.scene.unit
 
     @property
     def strain(self):
         """Axial strain so far."""
         return 1 - float(self.cell.edges()[2]) / self.state["edges"][2]
 
-    def _over(self):
-        return self.strain >= self.test.strain - 0.5 * ROW_STRAIN
+    def _ended(self):
+        return self.strain >= self.scene.strain - 0.5 * ROW_STRAIN
+
+    _over = _ended
 
     def _where(self):
-        return f"at a strain of {self.strain:.3f} of {self.test.strain:g}"
+        return f"at a strain of {self.strain:.3f} of {self.scene.strain:g}"
 
     def _steps(self):
         """Those of a row; returns the mean stresses on the plates [Pa], (6,)."""
-        every = max(1, round(ROW_STRAIN / self.test.rate / O.dt))
+        every = max(1, round(ROW_STRAIN / self.scene.rate / O.dt))
         parts = np.array_split(np.arange(every), every if self.world.name == "hard" else min(every, PARTS))
         mean = np.zeros(6)
         for part in parts:
@@ -82,13 +72,12 @@ class TriaxialCourse(driver.Course):
 
     def _drive(self, steps):
         """The speed grows with the time until half of twice RAMP's strain, as in the biaxial test."""
-        share = min(1.0, (self.now + 0.5 * steps * O.dt) * self.test.rate / (2 * RAMP))
-        self.cell.drive(2, -share * self.test.rate * self.state["edges"][2])
+        share = min(1.0, (self.now + 0.5 * steps * O.dt) * self.scene.rate / (2 * RAMP))
+        self.cell.drive(2, -share * self.scene.rate * self.state["edges"][2])
 
     def _look(self, mean):
-        ContactDynamicsEngine().view()
-        s, test, edges = self.state, self.test, self.cell.edges()
-        found = scenes.places(self.bodies, self.now, O.iter - s["begin"])
+        found = self._seen()
+        s, test, edges = self.state, self.scene, self.cell.edges()
         low = self.cell.low()
         gaps = [
             one
@@ -97,39 +86,27 @@ class TriaxialCourse(driver.Course):
         ]
         tensor, inner = measured(test, self.cell, self.bodies, found)
         speed = abs(self.cell.high(2).vel[2])
-        self.series.write(
-            {
-                **common_row(found, self.bodies, np.ones(len(found), bool), gaps),
-                "strain": self.strain,
-                "volumetric_strain": float(np.prod(edges) / np.prod(s["edges"])) - 1,
-                **{f"sigma_{name}_Pa": float(value) for name, value in zip(PLATES, mean)},
-                "contacts_sigma1_Pa": float(tensor[2, 2]),
-                "contacts_sigma3_Pa": float(0.5 * (tensor[0, 0] + tensor[1, 1])),
-                **inner,
-                "inertial_number": speed / float(edges[2]) * test.unit,
-                "wall_s": s["wall_steps_s"],
-            }
-        )
+        own = {
+            "strain": self.strain,
+            "volumetric_strain": float(np.prod(edges) / np.prod(s["edges"])) - 1,
+            **{f"sigma_{name}_Pa": float(value) for name, value in zip(PLATES, mean)},
+            "contacts_sigma1_Pa": float(tensor[2, 2]),
+            "contacts_sigma3_Pa": float(0.5 * (tensor[0, 0] + tensor[1, 1])),
+            **inner,
+            "inertial_number": speed / float(edges[2]) * test.unit,
+        }
+        self._row(found, np.ones(len(found), bool), gaps, own)
         self._frame()
         self.progress(min(1.0, self.strain / test.strain))
 
     def _frame(self):
-        kept, frames = self.state["kept"], self.test.FRAMES
+        kept, frames = self.state["kept"], self.scene.FRAMES
         if kept < len(frames) and self.strain >= frames[kept] - 1e-9 and not self._over():  # the end is kept anyway
-            self._write(f"{O.iter - self.state['begin']:08d}")
+            self._write(self._places())
             self.state["kept"] += 1
 
-    def _write(self, name):
-        found = scenes.places(self.bodies, self.now, O.iter - self.state["begin"])
-        files.write(self.folder / "snapshots" / f"{name}.npz", found)
-
-    def _save(self):
-        if self.unsaved is None:
-            told = {"state": self.state, "bodies": self.bodies.plain(), "series": self.series.mark()}
-            checkpoints.write(self.folder, key_of(self.test, self.world, None), told)
-
-    def _finish(self):
-        self._write("end")
+    def _results(self, series):
+        return self.scene.results(series, self.state)
 
 
 def measured(test, cell, bodies, found):
@@ -187,27 +164,4 @@ def run(test, world=None, folder=None, progress=lambda share: None) -> dict:
     """
     world = world_of(test) if world is None else world
     test.check_world(world)
-    folder = Path(checks.path("folder", folder, SpheresError, "give the path of a folder for the run's records"))
-    (folder / "snapshots").mkdir(parents=True, exist_ok=True)
-    if world.name == "hard" and checkpoints.exists(folder):
-        told = checkpoints.read(folder, key_of(test, world, None), SpheresError)
-    else:
-        told = _begin(test, world)
-    course = TriaxialCourse(test, world, folder, progress, told)
-    driver.drive(course)
-    series = records.read_series(folder / "series.csv")
-    return {
-        "world": world.name,
-        "settings": {k: list(v) if isinstance(v, tuple) else v for k, v in asdict(world).items()},
-        "scene": test.plain(),
-        "spheres": course.state["spheres"],
-        **test.results(series, course.state),
-        "ended": bool(course._over()),
-        "time_s": float(series["time_s"][-1]),
-        "unit_s": test.unit,
-        "time_step_s": O.dt,
-        "steps": int(series["step"][-1]),
-        "wall_s": float(course.state["wall_steps_s"]),
-        "overlap_mean_rel": float(np.mean(series["overlap_mean_rel"])),
-        "overlap_worst_rel": float(np.max(series["overlap_worst_rel"])),
-    }
+    return follow(TriaxialCourse, _begin, test, world, None, folder, progress)

@@ -59,12 +59,11 @@ def commands(speed, last=(0.0,) * 6):
 
 
 def _tell(speed, last):
-    """Writes the commands anew."""
-    new = dict(zip(("press", "hold"), commands(speed, last)))
+    """Writes the command that presses anew."""
+    pressing, _ = commands(speed, last)
     for engine in O.engines:
-        for name, command in new.items():
-            if getattr(engine, "command", "").startswith(f"{_ROOM}; _t.{name}("):
-                engine.command = command
+        if getattr(engine, "command", "").startswith(f"{_ROOM}; _t.press("):
+            engine.command = pressing
 
 
 def _walls(controller):

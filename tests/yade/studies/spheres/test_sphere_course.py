@@ -6,11 +6,22 @@ import math
 
 import numpy as np
 import pytest
+from halted_courses import halt, without_wall
 from yade import O
 from yade.nonsmooth import records
 from yade.nonsmooth.records import checkpoints
-from yade.nonsmooth.running import interrupts
-from yade.nonsmooth.studies.spheres import column, course, drum, grains, hopper, pile, places, preparation, scene
+from yade.nonsmooth.studies.spheres import (
+    column,
+    course,
+    drum,
+    grains,
+    hopper,
+    pile,
+    places,
+    preparation,
+    recorded_course,
+    scene,
+)
 
 pytestmark = pytest.mark.usefixtures("empty")
 
@@ -20,6 +31,7 @@ SMALL = {
     "drum": drum.TurningDrum(size=5, length=5, filling=0.25, turns=0.1, froude=0.05),
     "pile": pile.PlatePile(size=5.5),
 }
+SAID = "go on with --resume|has no checkpoint"
 
 
 @pytest.fixture(scope="module")
@@ -43,7 +55,7 @@ def runs(tmp_path_factory):
 def test_rows_have_their_columns_and_numbers_are_json(runs, kind, world):
     folder, told = runs(kind, world)
     series = records.read_series(folder / "series.csv")
-    assert tuple(series) == tuple(course.columns_of(type(SMALL[kind])))
+    assert tuple(series) == tuple(recorded_course.columns_of(type(SMALL[kind])))
     assert json.loads(json.dumps(told, allow_nan=False)) == told
     assert told["world"] == world and told["steps"] == series["step"][-1]
     # rigid spheres do not overlap; springs of this stiffness do by some per cent where one falls on another
@@ -124,31 +136,10 @@ def test_a_pile_keeps_a_cone_and_counts_what_it_loses(runs, world):
     assert 12 < told["repose_deg"] < 48
 
 
-def halt(monkeypatch, folder, kind, rows):
-    """A run that Ctrl-C ends after so many rows."""
-    real, left = course.SphereCourse._look, [rows]
-
-    def look(self, made):
-        real(self, made)
-        left[0] -= 1
-        if left[0] == 0:
-            self._stop()
-
-    with monkeypatch.context() as patched:
-        patched.setattr(course.SphereCourse, "_look", look)
-        with pytest.raises(interrupts.Interrupted, match="go on with --resume|has no checkpoint"):
-            course.run(SMALL[kind], folder=folder)
-    O.reset()
-
-
-def without_wall(path):
-    return [line.rsplit(",", 1)[0] for line in path.read_text().splitlines()]
-
-
 @pytest.mark.parametrize("kind", SMALL)
 def test_a_run_that_was_halted_goes_on_with_the_same_bits(runs, tmp_path, monkeypatch, kind):
     whole, told = runs(kind)
-    halt(monkeypatch, tmp_path, kind, 21)
+    halt(monkeypatch, course.SphereCourse, 21, SAID, course.run, SMALL[kind], folder=tmp_path)
     assert checkpoints.exists(tmp_path)
     again = course.run(SMALL[kind], folder=tmp_path)
     assert without_wall(tmp_path / "series.csv") == without_wall(whole / "series.csv")
@@ -158,7 +149,7 @@ def test_a_run_that_was_halted_goes_on_with_the_same_bits(runs, tmp_path, monkey
 
 
 def test_a_checkpoint_of_another_scene_is_refused(tmp_path, monkeypatch):
-    halt(monkeypatch, tmp_path, "column", 3)
+    halt(monkeypatch, course.SphereCourse, 3, SAID, course.run, SMALL["column"], folder=tmp_path)
     with pytest.raises(grains.SpheresError, match="belongs to other settings"):
         course.run(column.RoundColumn(size=4, aspect=0.8, friction=0.4), folder=tmp_path)
 

@@ -6,12 +6,21 @@ import math
 
 import numpy as np
 import pytest
+from halted_courses import halt, without_wall
 from yade import O
 from yade.nonsmooth import records
 from yade.nonsmooth.measure import triaxial as measures
 from yade.nonsmooth.records import checkpoints
-from yade.nonsmooth.running import interrupts
-from yade.nonsmooth.studies.spheres import cell, course, grains, places, pressing, scene, triaxial, triaxial_course
+from yade.nonsmooth.studies.spheres import (
+    cell,
+    grains,
+    places,
+    pressing,
+    recorded_course,
+    scene,
+    triaxial,
+    triaxial_course,
+)
 
 pytestmark = pytest.mark.usefixtures("empty")
 
@@ -40,7 +49,7 @@ def runs(tmp_path_factory):
 def test_plates_bear_the_pressure_and_contacts_tell_the_same(runs, world):
     folder, told = runs(world)
     s = records.read_series(folder / "series.csv")
-    assert tuple(s) == tuple(course.columns_of(triaxial.TriaxialTest))
+    assert tuple(s) == tuple(recorded_course.columns_of(triaxial.TriaxialTest))
     assert json.loads(json.dumps(told, allow_nan=False)) == told
     assert told["ended"] and told["strain"] == pytest.approx(SMALL.strain, abs=0.5 * triaxial_course.ROW_STRAIN)
     # at rest: what solver and springs leave open, a per cent of σ₃
@@ -97,25 +106,10 @@ def test_hard_spheres_know_no_stress_of_their_own(runs, tmp_path):
     assert again["peak_deg"] == pytest.approx(told["peak_deg"], abs=1e-6)
 
 
-def without_wall(path):
-    return [line.rsplit(",", 1)[0] for line in path.read_text().splitlines()]
-
-
 def test_a_test_that_was_halted_goes_on_with_the_same_bits(runs, tmp_path, monkeypatch):
     whole, told = runs()
-    real, left = triaxial_course.TriaxialCourse._look, [12]
-
-    def look(self, made):
-        real(self, made)
-        left[0] -= 1
-        if left[0] == 0:
-            self._stop()
-
-    with monkeypatch.context() as patched:
-        patched.setattr(triaxial_course.TriaxialCourse, "_look", look)
-        with pytest.raises(interrupts.Interrupted, match="at a strain of 0.02.* go on with --resume"):
-            triaxial_course.run(SMALL, folder=tmp_path)
-    O.reset()
+    said = "at a strain of 0.02.* go on with --resume"
+    halt(monkeypatch, triaxial_course.TriaxialCourse, 12, said, triaxial_course.run, SMALL, folder=tmp_path)
     assert checkpoints.exists(tmp_path)
     again = triaxial_course.run(SMALL, folder=tmp_path)
     assert without_wall(tmp_path / "series.csv") == without_wall(whole / "series.csv")

@@ -8,7 +8,7 @@ import math
 import numpy as np
 
 from ....contact import SpaceProblem
-from ..grains import touching
+from ..grains import draw_strengths, touching
 
 __all__ = ["bed", "of_other_bodies", "of_spheres", "random_cluster"]
 
@@ -112,15 +112,8 @@ def random_cluster(seed, spheres, *, rolling=False, twisting=False, cohesion=Fal
     problem = of_spheres(
         place, r, [FLOOR], inverse_mass=inverse_mass, turning=turning, free_velocity=velocity, reach=0.03
     )
-    contacts = len(problem.length)
-    problem.friction[:] = dice.uniform(0.1, 0.5, contacts)
-
-    def some():
-        return dice.uniform(0, 1, contacts) * (dice.random(contacts) < 2 / 3)
-
-    problem.rolling_arm[:] = 0.2 * problem.length * some() if rolling else 0
-    problem.twisting_arm[:] = 0.2 * problem.length * some() if twisting else 0
-    problem.adhesion[:] = mass.mean() * some() if cohesion else 0  # the impulse that stops a sphere of 1 m/s
+    stops = mass.mean()  # a sphere of 1 m/s
+    draw_strengths(problem, dice, stops, rolling=rolling, twisting=twisting, cohesion=cohesion)
     return problem
 
 
