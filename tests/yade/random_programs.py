@@ -1,5 +1,5 @@
 """Random programs: small scenes that are changed between and within steps, run in every way in which a scene can be
-run. All that can be read in the end, and at each change on the way, is the same to the last bit.
+run. All that can be read in the end, and at each change on the way, is the same to the last bit. Of disks here; of spheres in random_programs_space.py.
 
     scripts/yade-nonsmooth tests/yade/random_programs.py --programs 500          the first 500
     scripts/yade-nonsmooth tests/yade/random_programs.py --first 137 -v          one of them, with what it does
@@ -69,7 +69,7 @@ def disks():
 
 
 def walls():
-    return [b.id for b in O.bodies if b and isinstance(b.shape, Segment)]
+    return [b.id for b in O.bodies if b and not isinstance(b.shape, Sphere)]
 
 
 def near_contacts():
@@ -95,7 +95,7 @@ def bits(value):
     return value
 
 
-def outcome(plain_too=True):
+def outcome():
     """All that every way gives, by name."""
     found = {"iter": O.iter, "time": bits(O.time), "dt": bits(O.dt)}
     for b in O.bodies:
@@ -120,6 +120,7 @@ def outcome(plain_too=True):
             p.brokenMode,
             p.brokenStep,
             type(p).__name__,
+            *(bits(v) for v in present().vectors_of(p, g)),
         ]
     c = solver()
     if c:
@@ -227,13 +228,14 @@ def a_disk(dice, position, stuff=None):
     return body
 
 
-def above(dice):
-    return dice.uniform(1.0, 5.0), 6.0 + dice.uniform(0, 1.5)
+def fresh(dice):
+    """A new body above all others."""
+    return present().body(dice)
 
 
 @kind("none")
 def appended(dice):
-    O.bodies.append(a_disk(dice, above(dice)))
+    O.bodies.append(fresh(dice))
 
 
 @kind("none")
@@ -246,7 +248,7 @@ def replaced(dice):
     """Another disk takes the id of one, at once."""
     i = dice.choice(disks())
     O.bodies.erase(i)
-    O.bodies.insertAtId(a_disk(dice, above(dice)), i)
+    O.bodies.insertAtId(fresh(dice), i)
 
 
 @kind("none")
@@ -254,7 +256,7 @@ def put_back(dice):
     """An id that is free is used again, where there is one."""
     free = [i for i in range(len(O.bodies)) if O.bodies[i] is None]
     if free:
-        O.bodies.insertAtId(a_disk(dice, above(dice)), dice.choice(free))
+        O.bodies.insertAtId(fresh(dice), dice.choice(free))
 
 
 @kind("all")
@@ -273,7 +275,7 @@ def cleared(dice):
 def begun_anew(dice):
     O.interactions.clear()
     O.bodies.clear()
-    populate(dice)
+    present().populate(dice)
 
 
 @kind("all", within=False)
@@ -314,7 +316,7 @@ def strengths_set(dice):
 def friction_written(dice):
     pairs = near_contacts()
     for pair in dice.sample(pairs, min(3, len(pairs))):
-        if type(O.interactions[pair].phys).__name__ == "NscdPhys":
+        if type(O.interactions[pair].phys).__name__ in ("NscdPhys", "NscdSpacePhys"):
             O.interactions[pair].phys.tangensOfFrictionAngle = dice.uniform(0, 0.8)
 
 
@@ -606,7 +608,7 @@ class Event:
             self.done += 1
             if self.name == "raised" and self.done > 1:
                 return
-        how = KINDS[self.name]
+        how = present().kinds[self.name]
         dice = random.Random(self.seed)
         how["function"](dice, *([self.ids()] if how["looks"] == "bodies" else []))
 
@@ -634,19 +636,77 @@ def populate(dice):
         O.bodies.append(body)
 
 
+def materials(dice):
+    shared = dict(density=2500, bondCreationDistance=0.03, bondEllipseNormal=0.03, bondEllipseTangential=0.03)
+    base = NscdMat(frictionAngle=0.4, tensileStrength=8e3, rollingFriction=0.05, layer=1, **shared)
+    other = NscdMat(frictionAngle=0.2, layer=2, restitution=dice.choice((0.0, 0.3)), **shared)
+    weak = SlipWeakeningMat(frictionAngle=0.5, criticalSlip=0.005, tensileStrength=1e3, bondsToAll=True, **shared)
+    law = SlipWeakeningMat(frictionAngle=0.45, criticalSlip=0.03, **shared)
+    if dice.random() < 0.5:
+        base.interfaceLayers, base.interfaceLaws = [2], [law]
+    for m in (base, other, weak):
+        O.materials.append(m)
+
+
+def own_engines():
+    """YADE's own engines, which sort in every step: what a script moves is found at once. Boxes of disks are so large
+    that walls are found as early as by ours.
+    """
+    new = []
+    for e in O.engines:
+        if isinstance(e, PlanarGridCollider):
+            e = InsertionSortCollider(
+                [Bo1_Sphere_Aabb(aabbEnlargeFactor=1 + 2.2 * REACH), Bo1_Segment_Aabb(), Bo1_Arc_Aabb()], verletDist=0
+            )
+        elif isinstance(e, NscdInteractionLoop):
+            e = InteractionLoop(e.geomDispatcher.functors, e.physDispatcher.functors, e.lawDispatcher.functors)
+        elif isinstance(e, PlanarNewtonIntegrator):
+            e = NewtonIntegrator(damping=0, gravity=e.gravity)
+        new.append(e)
+    O.engines = new
+
+
+class Plane:
+    """What programs are made of: disks between segments."""
+
+    kinds = KINDS
+    present = None  # of the program that runs
+    materials, populate, own_engines = staticmethod(materials), staticmethod(populate), staticmethod(own_engines)
+
+    @staticmethod
+    def body(dice):
+        return a_disk(dice, (dice.uniform(1.0, 5.0), 6.0 + dice.uniform(0, 1.5)))
+
+    @staticmethod
+    def engines(dice):
+        O.engines = scene.engines(gravity=(0.5, -9.81, 0), reach=REACH, tolerance=1e-6, maxIterations=100)
+
+    @staticmethod
+    def vectors_of(phys, geom):
+        """What there is to compare of a contact, besides the numbers that are the same everywhere."""
+        return ()
+
+
+def present():
+    return Plane.present
+
+
 @dataclass
 class Program:
     number: int
     steps: int = 90
     changes: int = 14
     events: list = field(default_factory=list)
+    world: type = None  # Plane where it is None
 
     def __post_init__(self):
+        self.world = self.world or Plane
         dice = random.Random(self.number)
-        names = sorted(KINDS)
+        kinds = self.world.kinds
+        names = sorted(kinds)
         for k in range(self.changes):
             name = dice.choice(names)
-            how = KINDS[name]
+            how = kinds[name]
             within = how["within"] and (not how["between"] or dice.random() < 0.4)
             self.events.append(
                 Event(
@@ -666,21 +726,14 @@ class Program:
     def build(self, way):
         O.reset()
         O.trackEnergy = False
+        Plane.present = self.world
         dice = random.Random(self.number)
-        shared = dict(density=2500, bondCreationDistance=0.03, bondEllipseNormal=0.03, bondEllipseTangential=0.03)
-        base = NscdMat(frictionAngle=0.4, tensileStrength=8e3, rollingFriction=0.05, layer=1, **shared)
-        other = NscdMat(frictionAngle=0.2, layer=2, restitution=dice.choice((0.0, 0.3)), **shared)
-        weak = SlipWeakeningMat(frictionAngle=0.5, criticalSlip=0.005, tensileStrength=1e3, bondsToAll=True, **shared)
-        law = SlipWeakeningMat(frictionAngle=0.45, criticalSlip=0.03, **shared)
-        if dice.random() < 0.5:
-            base.interfaceLayers, base.interfaceLaws = [2], [law]
-        for m in (base, other, weak):
-            O.materials.append(m)
-        populate(dice)
-        O.engines = scene.engines(gravity=(0.5, -9.81, 0), reach=REACH, tolerance=1e-6, maxIterations=100)
+        self.world.materials(dice)
+        self.world.populate(dice)
+        self.world.engines(dice)
         O.dt = 1e-3
         if way == "plain":
-            own_engines()
+            self.world.own_engines()
         if way == "unseen":
             for e in O.engines:
                 e.ompThreads = 2
@@ -694,14 +747,14 @@ class Program:
         __main__.random_event = lambda number: next(e for e in self.events if e.number == number)()
 
     def ways(self):
-        return [w for w in WAYS if all(w in KINDS[e.name]["ways"] for e in self.events)]
+        return [w for w in WAYS if all(w in self.world.kinds[e.name]["ways"] for e in self.events)]
 
     def run(self, way, told=lambda text: None):
         """What there is at each change between steps, and in the end."""
         self.build(way)
         made, rows = 0, []
         for e in [e for e in self.events if not e.within] + [None]:
-            looks = KINDS[e.name]["looks"] if e else "all"
+            looks = self.world.kinds[e.name]["looks"] if e else "all"
             ids = e.ids() if looks == "bodies" else []
             rows.append(self.go(way, (e.step if e else self.steps) - made, looks, ids))
             made = e.step if e else self.steps
@@ -741,24 +794,6 @@ class Program:
         if (way == "unseen" and looks != "none") or (way == "alone" and (looks == "all" or not shown)):
             solver().view()
         return said
-
-
-def own_engines():
-    """YADE's own engines, which sort in every step: what a script moves is found at once. Boxes of disks are so large
-    that walls are found as early as by ours.
-    """
-    new = []
-    for e in O.engines:
-        if isinstance(e, PlanarGridCollider):
-            e = InsertionSortCollider(
-                [Bo1_Sphere_Aabb(aabbEnlargeFactor=1 + 2.2 * REACH), Bo1_Segment_Aabb(), Bo1_Arc_Aabb()], verletDist=0
-            )
-        elif isinstance(e, NscdInteractionLoop):
-            e = InteractionLoop(e.geomDispatcher.functors, e.physDispatcher.functors, e.lawDispatcher.functors)
-        elif isinstance(e, PlanarNewtonIntegrator):
-            e = NewtonIntegrator(damping=0, gravity=e.gravity)
-        new.append(e)
-    O.engines = new
 
 
 def beside(steps):
@@ -802,7 +837,8 @@ def check(program, ways=WAYS, told=lambda text: None):
     return wrong, [w for w in ways if w not in able]
 
 
-def main():
+def main(world=None):
+    """Of a world, Plane where it is None."""
     parser = argparse.ArgumentParser(description="Runs random programs in every way and compares them.")
     parser.add_argument("--programs", type=int, default=1, help="how many (default: 1)")
     parser.add_argument("--first", type=int, default=0, help="number of the first (default: 0)")
@@ -811,7 +847,7 @@ def main():
     args = parser.parse_args()
     failed, left, begin = [], 0, time.time()
     for number in range(args.first, args.first + args.programs):
-        program = Program(number)
+        program = Program(number, world=world)
         if args.verbose:
             print(f"program {number}: within steps", [(e.step, e.name) for e in program.events if e.within], flush=True)
         wrong, out = check(program, args.ways, print if args.verbose else lambda text: None)
@@ -821,7 +857,7 @@ def main():
         if wrong:
             failed.append(number)
     print(
-        f"{args.programs} programs of {len(KINDS)} kinds of change, {len(args.ways)} ways, {left} left out, {len(failed)} differ: {failed}; {time.time() - begin:.0f} s"
+        f"{args.programs} programs of {len((world or Plane).kinds)} kinds of change, {len(args.ways)} ways, {left} left out, {len(failed)} differ: {failed}; {time.time() - begin:.0f} s"
     )
     return 1 if failed else 0
 

@@ -31,8 +31,8 @@ void ContactDynamicsEngine::action()
 	validate();
 	const auto gravity = nscd::gravityOf(*scene);
 	if (nscd::isInSpace(*scene, resident.bodies)) {
-		resident.show();
-		stepInSpace(timer, gravity, threads);
+		resident.show({ "the step in space", false, true, true, false });
+		stepInSpace(resident, timer, gravity, threads);
 		turn.end();
 		return;
 	}

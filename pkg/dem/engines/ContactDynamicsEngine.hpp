@@ -240,8 +240,8 @@ and contactImpact. The same scene gives the same bits on any number of threads.)
 	nscd::StageClock clock;
 
 private:
-	void                               stepInSpace(nscd::StageTimer& timer, const Vector3r& gravity, int threads);
-	void                               validate() const;
+	void stepInSpace(nscd::Resident& resident, nscd::StageTimer& timer, const Vector3r& gravity, int threads);
+	void validate() const;
 	nonsmooth::contact::SolverSettings settings() const;
 	void                               account(const nscd::StepSums& sums);
 	void                               recordBreaks(const nscd::Resident& resident);

@@ -134,15 +134,16 @@ void NscdInteractionLoop::action()
 	const Ours  now { exactly<Ig2_Sphere_Sphere_ScGeom>(shapes), exactly<Ig2_Segment_Sphere_ScGeom>(shapes),
                          exactly<Ig2_Arc_Sphere_ScGeom>(shapes),
                          exactly<Law2_ScGeom_NscdPhys_SignoriniCoulomb>(lawDispatcher->functors), colliderBefore() };
-	if (!resident.order.empty() && (now.spheres != ours.spheres || now.law != ours.law)) resident.show();
+	if (resident.hasAnyContacts() && (now.spheres != ours.spheres || now.law != ours.law)) resident.show();
 	ours = now;
 	if (nscd::isInSpace(*scene, resident.bodies)) {
 		if (resident.hasContacts()) resident.show();
 		resident.potentialOf = nscd::Resident::never;
-		visitInSpace(resident, threads);
+		actInSpace(resident, threads);
 		turn.end();
 		return;
 	}
+	if (resident.inSpace) resident.inSpace->show(); // what moved in space has come to stay in the plane
 	// what a script erases beside the arrays is no longer real, and the collider has taken it out of the list
 	if (resident.hasContacts() && list.size() != resident.order.size() - resident.bare + resident.potential.size())
 		resident.show();

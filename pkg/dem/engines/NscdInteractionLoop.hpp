@@ -2,7 +2,8 @@
 //
 // Interactions, their geometry, their physics and the states of their bodies lie all over the memory, so the loop of
 // 50,000 of them waits for memory most of the time. This one keeps contacts of disks in arrays (seam/Resident.hpp),
-// without the shear increments that soft laws need, which are zero; their interactions follow when somebody looks.
+// without the shear increments that soft laws need, which are zero; their interactions follow when somebody looks. So
+// it keeps contacts of spheres that move in space (space/SpaceContacts.hpp).
 // Everything else goes through the functors as ever. All other fields have the bits of YADE's loop.
 #pragma once
 
@@ -11,6 +12,10 @@
 
 namespace yade {
 
+namespace nscd {
+	class SpaceContacts;
+	struct SpaceContactState;
+}
 class Law2_ScGeom_NscdPhys_SignoriniCoulomb;
 class Ig2_Arc_Sphere_ScGeom;
 class Ig2_Segment_Sphere_ScGeom;
@@ -53,7 +58,12 @@ private:
 	           std::string& error);
 	bool areOutOfReach(const Interaction& interaction, const std::vector<nscd::BodyState>& bodies) const;
 	bool isOfSpheres(const Interaction& interaction, const std::vector<nscd::BodyState>& bodies) const;
-	void visitInSpace(const nscd::Resident& resident, int threads);
+	void actInSpace(nscd::Resident& resident, int threads);
+	void visitAll(const nscd::Resident& resident, int threads);
+	bool followKept(nscd::SpaceContacts& contacts, const nscd::Resident& resident, int threads);
+	bool follow(nscd::SpaceContactState& contact, const std::vector<nscd::BodyState>& bodies) const;
+	void keep(nscd::SpaceContactState& contact, const std::vector<nscd::BodyState>& bodies) const;
+	void keepAll(nscd::SpaceContacts& contacts, const nscd::Resident& resident, int threads) const;
 
 	void keepFunctors();
 

@@ -1,10 +1,9 @@
-// Contacts that go through their functors, as in YADE's loop: those that the arrays do not keep, and all of them in
-// space.
+// Contacts that go through their functors, as in YADE's loop: those that the arrays do not keep.
 #include "../walls/Arc.hpp"
 #include "../materials/Law2_ScGeom_NscdPhys_SignoriniCoulomb.hpp"
 #include "NscdInteractionLoop.hpp"
 #include "../seam/PythonMade.hpp"
-#include "../space/NscdSpacePhys.hpp"
+#include "../space/SphereGeometry.hpp"
 #include "../walls/Segment.hpp"
 #include "../checks/UnguardedHeaders.hpp"
 #include "../seam/Prefetch.hpp"
@@ -33,18 +32,16 @@ namespace {
 		geom.shearInc = Vector3r::Zero();
 	}
 
-	/// Geometry of two spheres in the order of operations of Ig2_Sphere_Sphere_ScGeom, without what soft laws need;
-	/// its axes are none since the contact went through its functors (forgetShear).
+	/// Of two spheres; its axes are none since the contact went through its functors (forgetShear).
 	void setGeometry(ScGeom& geom, const nscd::BodyState& first, const nscd::BodyState& second)
 	{
-		const Vector3r from = first.place(), way = second.place() - from;
-		const Real     distance = way.norm();
-		geom.normal             = way / distance;
-		geom.penetrationDepth   = first.radius + second.radius - distance;
-		geom.contactPoint       = from + (first.radius - 0.5 * geom.penetrationDepth) * geom.normal;
-		geom.radius1            = first.radius;
-		geom.radius2            = second.radius;
-		geom.shearInc           = Vector3r::Zero();
+		const auto at         = nscd::geometryOf(first, second);
+		geom.normal           = at.normal;
+		geom.penetrationDepth = at.depth;
+		geom.contactPoint     = at.point;
+		geom.radius1          = first.radius;
+		geom.radius2          = second.radius;
+		geom.shearInc         = Vector3r::Zero();
 	}
 
 	/// Of two bodies whose contact lacks a functor for what `a` and `b` have; `remedy`: which one, or what else
@@ -274,47 +271,6 @@ void NscdInteractionLoop::visitOthers(
 	resident.potential.resize(left);
 	for (long k = 0; k < known; ++k)
 		if (ends[k]) resident.gone.push_back(others[k]);
-}
-
-/// All interactions there are, by their functors. Bodies and contacts stay in YADE's objects.
-void NscdInteractionLoop::visitInSpace(const nscd::Resident& resident, int threads)
-{
-	auto&       list   = *scene->interactions;
-	const auto& bodies = resident.bodies;
-	const long  count  = (long)list.size();
-	struct alignas(64) Part {
-		std::vector<long> ended; // places in the list
-	};
-	std::vector<Part> parts(threads);
-	std::string       error; // thrown after the loop, since threads may not
-#pragma omp parallel num_threads(threads)
-	{
-		auto& ended = nonsmooth::neighbours::partOfThread(parts).ended;
-#pragma omp for schedule(static)
-		for (long k = 0; k < count; ++k) {
-			if (k + (long)later < count) fetch<sizeof(Interaction)>(list[k + later].get());
-			if (k + (long)soon < count && list[k + soon]->isReal()) {
-				const Interaction& next = *list[k + soon];
-				fetch<sizeof(ScGeom)>(next.geom.get());
-				fetch<sizeof(NscdSpacePhys)>(next.phys.get());
-				// between spheres the resident bodies do
-				if (!ours.spheres || next.functorCache.geom.get() != ours.spheres)
-					for (const int id : { next.getId1(), next.getId2() })
-						fetch<sizeof(Body)>((*scene->bodies)[id].get());
-			}
-			const shared_ptr<Interaction>& I = list[k];
-			if (!I->isReal() && areOutOfReach(*I, bodies)) continue;
-			if (!visit(I, bodies, error)) ended.push_back(k);
-		}
-	}
-	if (!error.empty()) throw std::runtime_error(error);
-	for (const Part& part : parts)
-		for (const long k : part.ended) {
-			const shared_ptr<Interaction>& I = list[k];
-			nscd::letGo(I->geom);
-			nscd::letGo(I->phys);
-			list.requestErase(I);
-		}
 }
 
 } // namespace yade

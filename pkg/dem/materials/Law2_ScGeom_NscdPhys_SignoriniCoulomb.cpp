@@ -46,8 +46,16 @@ bool Law2_ScGeom_NscdPhys_SignoriniCoulomb::go(shared_ptr<IGeom>& ig, shared_ptr
 {
 	expectSolver();
 	const auto& geom = static_cast<const ScGeom&>(*ig);
-	auto&       phys = static_cast<NscdPhys&>(*ip);
-	const Real  gap  = -geom.penetrationDepth;
+	if (typeid(*ip) == typeid(NscdPhys)) {
+		const auto &b1 = *Body::byId(interaction->getId1(), scene),
+		           &b2 = *Body::byId(interaction->getId2(), scene);
+		if (const auto made = Ip2_NscdMat_NscdMat_NscdPhys::released(*interaction, b1, b2)) {
+			nscd::letGo(ip);
+			ip = made;
+		}
+	}
+	auto&      phys = static_cast<NscdPhys&>(*ip);
+	const Real gap  = -geom.penetrationDepth;
 
 	if (phys.bonded) {
 		const auto pair = nscd::bondPair(

@@ -226,6 +226,17 @@ void Ip2_NscdMat_NscdMat_NscdPhys::renew(Interaction& interaction, const Body& b
 	interaction.phys              = made;
 }
 
+shared_ptr<NscdPhys>
+Ip2_NscdMat_NscdMat_NscdPhys::released(const Interaction& interaction, const Body& b1, const Body& b2)
+{
+	if (!nscd::isFreeInSpace(b1) && !nscd::isFreeInSpace(b2)) return nullptr;
+	if (!makesSense(b1.material.get()) || !makesSense(b2.material.get())) return nullptr;
+	const auto made = make(b1.material, b2.material, interaction);
+	setStrengths(*made, b1, b2);
+	made->bonded = static_cast<const NscdPhys&>(*interaction.phys).bonded;
+	return made;
+}
+
 void Ip2_NscdMat_NscdMat_NscdPhys::checkMaterials(const Body& b1, const Body& b2)
 {
 	for (const Body* body : { &b1, &b2 }) {

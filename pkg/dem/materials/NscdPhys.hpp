@@ -205,6 +205,9 @@ public:
 	/// Takes up the materials that the bodies of a contact have now, and makes its physics one of another class
 	/// where they ask for that; bond and reactions stay.
 	static void renew(Interaction& interaction, const Body& b1, const Body& b2);
+	/// The physics in space of a contact that was made when neither of its bodies could leave the plane, where one can
+	/// now; null where none can, or a material does not make sense. A bond is made anew as the bodies stand.
+	static shared_ptr<NscdPhys> released(const Interaction& interaction, const Body& b1, const Body& b2);
 	/// Sets strengths and lengths of a contact from the materials of its bodies; bond and reactions stay.
 	static void setStrengths(NscdPhys& phys, const Body& b1, const Body& b2);
 	static void setStrengths(NscdPhys& phys, const nonsmooth::contact::plane::Strengths& strengths, Real length);

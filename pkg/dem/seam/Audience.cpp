@@ -7,6 +7,7 @@
 #include <pkg/common/PeriodicEngines.hpp>
 #include <pkg/common/PyRunner.hpp>
 #include <pkg/common/Recorder.hpp>
+#include <set>
 
 namespace yade::nscd {
 
@@ -29,6 +30,26 @@ namespace {
 		return isOneOf<PyRunner>(engine) || roleOf(engine) == EngineRole::Runner
 		        || dynamic_cast<const Recorder*>(&engine) || engine.getClassName() == "VTKRecorder"
 		        || engine.getClassName() == "SnapshotEngine" || engine.getClassName() == "DomainLimiter";
+	}
+
+	/// Moves bodies, or makes interactions for pairs that come near each other, and neither reads nor writes what a
+	/// contact has. Of these classes themselves.
+	bool isBlindToContacts(const Engine& engine)
+	{
+		static const std::set<string> all { "InsertionSortCollider",
+			                            "NewtonIntegrator",
+			                            "RotationEngine",
+			                            "TranslationEngine",
+			                            "HelixEngine",
+			                            "InterpolatingHelixEngine",
+			                            "HarmonicMotionEngine",
+			                            "HarmonicRotationEngine",
+			                            "CombinedKinematicEngine",
+			                            "ServoPIDController",
+			                            "ForceEngine",
+			                            "TorqueEngine",
+			                            "SpatialNewtonIntegrator" };
+		return all.count(engine.getClassName()) > 0;
 	}
 
 	/// An engine's place in the list; the end where it has none, outside a step since somebody called it by hand,
@@ -99,17 +120,18 @@ bool isTooLate(const Scene& scene, const Engine& engine)
 	return false;
 }
 
-const Engine* whoLooksFirst(const Scene& scene)
+const Engine* whoLooksFirst(const Scene& scene, LooksAt what)
 {
 	for (const auto& engine : scene._nextEngines.empty() ? scene.engines : scene._nextEngines) {
 		if (engine->dead) continue;
 		if (takesTurns(*engine)) return nullptr;
+		if (what == LooksAt::Contacts && isBlindToContacts(*engine)) continue;
 		if (mayAct(*engine, scene.iter, scene.time, scene.dt)) return engine.get();
 	}
 	return nullptr;
 }
 
-Viewer whoLooksAfter(const Scene& scene, const Engine& engine)
+Viewer whoLooksAfter(const Scene& scene, const Engine& engine, LooksAt what)
 {
 	const auto& all  = scene.engines;
 	const auto  here = placeOf(scene, engine);
@@ -118,6 +140,7 @@ Viewer whoLooksAfter(const Scene& scene, const Engine& engine)
 	const auto passes = [&](const Engine& e, long iter, Real time) {
 		if (e.dead) return false;
 		if (takesTurns(e)) return true;
+		if (what == LooksAt::Contacts && isBlindToContacts(e)) return false;
 		if (!mayAct(e, iter, time, scene.dt)) return false;
 		found.isPython = isRunnerOrRecorder(e) && (found.name.empty() || found.isPython);
 		if (found.name.empty()) found.name = named(e);

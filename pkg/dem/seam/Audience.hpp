@@ -15,8 +15,11 @@ struct Viewer {
 	bool   isPython = false; // changes contacts by attributes and by O.interactions, or not at all
 };
 
+/// What somebody may look at: anything, or contacts.
+enum class LooksAt { Anything, Contacts };
+
 /// Who looks between the end of this engine's turn and the next turn of one of ours.
-Viewer whoLooksAfter(const Scene& scene, const Engine& engine);
+Viewer whoLooksAfter(const Scene& scene, const Engine& engine, LooksAt what = LooksAt::Anything);
 
 /// Whether only Python, and nobody else's C++, can have had a turn since the last one of ours in this step, or since
 /// the step began.
@@ -28,7 +31,7 @@ bool isTooLate(const Scene& scene, const Engine& engine);
 
 /// The engine that acts in the next step before one of ours has its turn, and may look at objects; null where none
 /// does.
-const Engine* whoLooksFirst(const Scene& scene);
+const Engine* whoLooksFirst(const Scene& scene, LooksAt what = LooksAt::Anything);
 
 /// Whether steps are made while other threads of Python run.
 bool othersMayLook(const Scene& scene);

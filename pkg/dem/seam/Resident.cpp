@@ -28,7 +28,9 @@ void Resident::takeBodies(Scene& scene)
 {
 	const double begin = steadySeconds();
 	++taken;
-	followSizes(scene, readBodies(scene, threads, bodies));
+	const auto changed = readBodies(scene, threads, bodies);
+	if (inSpace && !changed.empty()) inSpace->show(); // lengths follow sizes in the interactions
+	followSizes(scene, changed);
 	shaped.clear();
 	driven.clear();
 	for (size_t id = 0; id < bodies.size(); ++id) {

@@ -25,6 +25,7 @@
 #include "PythonMade.hpp"
 #include "BodyState.hpp"
 #include "ContactState.hpp"
+#include "KeptContacts.hpp"
 #include <atomic>
 #include <boost/weak_ptr.hpp>
 #include <contact/plane/problem.hpp>
@@ -77,6 +78,7 @@ public:
 		bool   staysKnown = false; // only Python can have changed them when contacts are taken again
 		bool   makes      = true; // interactions of bare contacts
 		bool   sorts      = true; // the list of interactions; not where other threads may be walking along it
+		bool   inSpace    = true; // contacts of bodies that move in space, too
 	};
 
 	/// That of a scene; made where there is none.
@@ -85,6 +87,8 @@ public:
 	/// Whether the arrays are right and not the objects.
 	bool hasBodies() const { return bodiesOwned; }
 	bool hasContacts() const { return contactsOwned; }
+	/// The same of contacts in space, too.
+	bool hasAnyContacts() const { return contactsOwned || (inSpace && inSpace->owned()); }
 
 	void takeBodies(Scene& scene);
 	/// Takes all interactions that are real, and notes the others.
@@ -164,6 +168,7 @@ public:
 	Recipe                                            recipe;
 	size_t                                            bare = 0; // contacts without an interaction
 	long made = 0; // interactions so far that were made for contacts and pairs which had none
+	std::shared_ptr<KeptContacts> inSpace; // contacts of bodies that move in space; null where there never were any
 	/// Interactions that are not real; and the step of the last loop, which knew of all.
 	std::vector<Potential> potential;
 	long                   potentialOf = never;

@@ -130,6 +130,8 @@ void Resident::show(const Look& look)
 	const std::lock_guard<std::recursive_mutex> guard(lock);
 	const double                                begin = steadySeconds();
 	const auto                                  kept  = container.lock();
+	const bool                                  all   = look.inSpace && inSpace && inSpace->owned();
+	if (all) inSpace->show();
 	if (look.makes) makeAll();
 	if (kept && contactsOwned) {
 		const long count = (long)order.size();
@@ -157,7 +159,7 @@ void Resident::show(const Look& look)
 			      asShown); // threads would wait for each other if each body asked for the container
 		}
 	}
-	if (bodiesOwned || contactsOwned) {
+	if (bodiesOwned || contactsOwned || all) {
 		++shown;
 		shownTo = look.who;
 	}
@@ -197,6 +199,7 @@ void Resident::showForSaving()
 void Resident::showOnly(const std::vector<int>& ids)
 {
 	const auto guard = betweenTurns();
+	if (inSpace) inSpace->leaveAlone();
 	if (contactsOwned) hold(); // a script may erase what the arrays point to
 	if (!bodiesOwned) return;
 	shownAlone.clear();

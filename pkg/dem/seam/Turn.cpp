@@ -77,7 +77,15 @@ void Turn::end()
 		if (steadySeconds() - data->lastShown > std::max(least, share * data->costOfLook))
 			data->show({ "others, now and then", true, all, false });
 	}
-	if (!viewer.name.empty()) data->show({ viewer.name, viewer.isPython });
+	if (!viewer.name.empty()) {
+		const bool contacts = !whoLooksAfter(scene, engine, LooksAt::Contacts).name.empty();
+		data->show({ viewer.name, viewer.isPython, true, true, contacts });
+	}
+	if (const auto& kept = data->inSpace; kept && kept->owned() && othersMayLook(scene)) {
+		kept->hold();
+		const bool all = interactionsWanted(scene);
+		if (kept->isDue(all ? 0.05 : 1, all ? 50 : 200)) kept->show();
+	}
 	data->interactionsSeen = scene.interactions->size();
 	ended                  = true;
 }

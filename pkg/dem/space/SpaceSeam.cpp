@@ -10,7 +10,6 @@
 #include <algorithm>
 #include <contact/space/bond.hpp>
 #include <core/Scene.hpp>
-#include <neighbours/bucket_sort.hpp>
 #include <neighbours/thread_part.hpp>
 #include <pkg/common/Sphere.hpp>
 #include <pkg/dem/ScGeom.hpp>
@@ -30,12 +29,6 @@ namespace {
 	{
 		if (shape && typeid(*shape) == typeid(Sphere)) return static_cast<const Sphere*>(shape);
 		return dynamic_cast<const Sphere*>(shape);
-	}
-
-	/// The cohesive physics of an interaction, null if it has another; in space most are of one class.
-	NscdPhys* cohesiveOf(IPhys& phys)
-	{
-		return typeid(phys) == typeid(NscdSpacePhys) ? static_cast<NscdSpacePhys*>(&phys) : physOf(phys);
 	}
 
 	/// Inverse of a number that resists, 0 in a blocked direction.
@@ -69,23 +62,22 @@ bool isInSpace(const Scene& scene, const std::vector<BodyState>& bodies)
 	return std::none_of(bodies.begin(), bodies.end(), isOfThePlane);
 }
 
-void SpaceSeam::gather(Scene& scene, const Vector3r& gravity, const Relaxation& how, int threadCount)
+void SpaceSeam::gather(
+        Scene& scene, Resident& resident, const Vector3r& gravity, const Relaxation& how, int threadCount)
 {
 	relaxation = how;
 	threads    = threadCount;
 	recalls    = 0;
+	kept       = &SpaceContacts::of(resident);
 	gatherBodies(scene, gravity);
-	findContacts(scene);
-	const long count = (long)links.size();
+	if (!kept->owned()) kept->take(scene, resident.bodies, threads);
+	findContacts(scene, resident.bodies);
+	const long count = (long)solved.size();
 	problem.contacts.resize(count);
 	problem.impulses.resize(count);
 	warmStart.resize(count);
 #pragma omp parallel for schedule(static) num_threads(threads)
 	for (long k = 0; k < count; ++k) {
-		if (k + (long)soon < count) {
-			fetch<sizeof(ScGeom)>(links[k + soon].geom);
-			fetch<sizeof(NscdSpacePhys)>(links[k + soon].phys);
-		}
 		gatherContact(k);
 		warmStart[k] = problem.impulses[k];
 	}
@@ -180,37 +172,32 @@ void SpaceSeam::gatherBodies(Scene& scene, const Vector3r& gravity)
 	        "only spheres turn: set state.blockedDOFs = 'XYZ' for a plate that moves without turning, or block all");
 }
 
-/// What becomes of an interaction; Refused: the step cannot be made with it, see refuse().
-SpaceSeam::Use SpaceSeam::useOf(const Interaction& I) const
+/// What becomes of a contact; Refused: the step cannot be made with it, see refuse().
+SpaceSeam::Use SpaceSeam::useOf(const SpaceContactState& s) const
 {
+	if (s.kept) return std::isfinite(s.normal.x + s.normal.y + s.normal.z) ? Use::Solved : Use::Refused;
+	const Interaction& I = *s.interaction;
 	if (!I.isReal() || !I.isActive) return Use::None;
 	const int id1 = I.getId1(), id2 = I.getId2();
 	if (!bodies[id1].present || !bodies[id2].present) return Use::None;
-	NscdPhys* phys = cohesiveOf(*I.phys);
-	if (!phys) return Use::Refused;
-	const bool inSpace = typeid(*phys) == typeid(NscdSpacePhys);
-	if (problem.inverseMass[id1].isFixed() && problem.inverseMass[id2].isFixed() && !inSpace
-	    && typeid(*phys) == typeid(NscdPhys))
-		return Use::None; // of two bodies that are held, as in no plane and no space
-	if (!inSpace || !std::isfinite(static_cast<const ScGeom&>(*I.geom).normal.sum())) return Use::Refused;
-	phys->hearReset();
-	const bool makesSense = static_cast<NscdSpacePhys*>(phys)->makesSenseAtOnce() || !phys->senseless().first;
-	return !makesSense || phys->unheard() || !(phys->length > 0) ? Use::Refused : Use::Solved;
+	if (s.phys) return SpaceContacts::isSound(*s.phys, *s.geom) ? Use::Solved : Use::Refused;
+	// of two bodies that were held when it was made; the next loop gives one in space to those that are no longer
+	const bool isPlain = typeid(*I.phys) == typeid(NscdPhys);
+	return isPlain && !static_cast<const NscdPhys&>(*I.phys).senseless().first ? Use::None : Use::Refused;
 }
 
 /// Says why an interaction cannot be taken.
 void SpaceSeam::refuse(const Scene& scene, Interaction& I) const
 {
 	const string pair = "interaction #" + std::to_string(I.getId1()) + "+#" + std::to_string(I.getId2());
-	const auto*  phys = cohesiveOf(*I.phys);
+	const auto*  phys = physOf(*I.phys);
 	if (!phys)
 		fail(pair + " has a " + I.phys->getClassName()
 		     + ": give both bodies an NscdMat and use Ip2_NscdMat_NscdMat_NscdPhys");
-	if (typeid(*phys) != typeid(NscdSpacePhys))
+	if (typeid(*phys) != typeid(NscdSpacePhys) && typeid(*phys) != typeid(NscdPhys))
 		fail(pair + " has a " + phys->getClassName()
 		     + ", and bodies move in space, where contacts have an NscdSpacePhys: walls that weaken by slip are for disks in the plane"
-		       " (state.blockedDOFs = 'zXY'), and contacts that were made while all bodies were in the plane must be "
-		       "made anew (O.interactions.clear())");
+		       " (state.blockedDOFs = 'zXY')");
 	if (!std::isfinite(static_cast<const ScGeom&>(*I.geom).normal.sum()))
 		fail(pair
 		     + " has no normal: the centres are at one place, or a position is not finite: move one of them");
@@ -222,128 +209,115 @@ void SpaceSeam::refuse(const Scene& scene, Interaction& I) const
 	refuseContact(scene, state);
 }
 
-/// All real interactions of rigid contacts: those to be solved for in the order of ids, and those that are left out.
-void SpaceSeam::findContacts(Scene& scene)
+/// Those to be solved for in the order of ids, and those that are left out. Contacts that are not kept in the arrays
+/// alone are read.
+void SpaceSeam::findContacts(const Scene& scene, const std::vector<BodyState>& all)
 {
-	auto&      list  = *scene.interactions;
-	const long count = (long)list.size();
-	long       bad   = count; // the first one that cannot be taken, refused after the loop, which must not throw
-	found.resize(threads);
-	for (auto& part : found) {
-		part.links.clear();
-		part.left.clear();
-	}
+	auto&      states = kept->states;
+	const long count  = (long)states.size();
+	long       bad    = count; // the first one that cannot be taken, refused after the loop, which must not throw
+	uses.resize(count);
+	std::vector<std::vector<Left>> parts(threads); // by thread, each in order, since each has a stretch of them
 #pragma omp parallel num_threads(threads) reduction(min : bad)
 	{
-		auto& part = nonsmooth::neighbours::partOfThread(found);
+		std::vector<Left> out;
 #pragma omp for schedule(static)
 		for (long k = 0; k < count; ++k) {
-			if (k + (long)later < count) fetch<sizeof(Interaction)>(list[k + later].get());
-			if (k + (long)soon < count) {
-				fetch<sizeof(ScGeom)>(list[k + soon]->geom.get());
-				fetch<sizeof(NscdSpacePhys)>(list[k + soon]->phys.get());
+			if (k + (long)soon < count && !states[k + soon].kept) {
+				fetch<sizeof(ScGeom)>(states[k + soon].geom);
+				fetch<sizeof(NscdSpacePhys)>(states[k + soon].phys);
 			}
-			Interaction& I     = *list[k];
-			const Use    isFor = useOf(I);
-			if (isFor == Use::Refused) bad = std::min(bad, k);
-			if (isFor != Use::Solved) continue;
-			const int   id1 = I.getId1(), id2 = I.getId2();
-			const bool  both    = bodies[id1].radius > 0 && bodies[id2].radius > 0;
-			const bool  swapped = both ? id1 > id2 : bodies[id1].radius > 0;
-			const auto* geom    = static_cast<const ScGeom*>(I.geom.get());
-			const Real  gap     = -geom->penetrationDepth;
-			auto*       phys    = static_cast<NscdPhys*>(I.phys.get());
-			const Link  link { &I, geom, phys, swapped ? id2 : id1, swapped ? id1 : id2, swapped, gap };
-			if (const auto open = staysOut(link)) {
-				part.left.push_back({ link, *open });
-				forgetReactions(link);
-			} else
-				part.links.push_back(link);
+			auto& s = states[k];
+			uses[k] = useOf(s);
+			if (uses[k] == Use::Refused) bad = std::min(bad, k);
+			if (uses[k] != Use::Solved) continue;
+			if (!s.kept) SpaceContacts::read(s, all);
+			if (const auto open = staysOut(s)) {
+				out.push_back({ size_t(k), *open });
+				forgetReactions(s);
+				uses[k] = Use::LeftOut;
+			}
 		}
+		nonsmooth::neighbours::partOfThread(parts).swap(out);
 	}
-	if (bad < count) refuse(scene, *list[bad]);
-	const auto each = [this](auto take) {
-		for (const auto& part : found)
-			for (const Link& link : part.links)
-				take(std::min(link.i, link.j), link);
-	};
-	nonsmooth::neighbours::sortIntoBuckets(bodies.size(), each, linksBefore, links);
-#pragma omp parallel for schedule(static) num_threads(threads)
-	for (long id = 0; id < (long)bodies.size(); ++id)
-		std::sort(
-		        links.begin() + linksBefore[id], links.begin() + linksBefore[id + 1],
-		        [](const Link& a, const Link& b) { return std::max(a.i, a.j) < std::max(b.i, b.j); });
+	if (bad < count) {
+		Interaction& refused = *states[bad].interaction;
+		kept->show();
+		refuse(scene, refused);
+	}
+	solved.clear();
+	for (long k = 0; k < count; ++k)
+		if (uses[k] == Use::Solved) solved.push_back(k);
 	left.clear();
-	for (const auto& part : found)
-		left.insert(left.end(), part.left.begin(), part.left.end());
+	for (const auto& part : parts)
+		left.insert(left.end(), part.begin(), part.end());
 }
 
 /// Bodies, normal and levers of a contact.
-void SpaceSeam::setFrame(const Link& link, space::Contact& c) const
+void SpaceSeam::setFrame(const SpaceContactState& s, space::Contact& c) const
 {
-	const ScGeom& geom = *link.geom;
-	c                  = {};
-	c.i                = link.i;
-	c.j                = link.j;
-	c.n                = Real(link.swapped ? -1 : 1) * ours(geom.normal);
+	c   = {};
+	c.i = s.i;
+	c.j = s.j;
+	c.n = Real(s.swapped ? -1 : 1) * s.normal;
 	// between spheres the point in the middle of the gap keeps the angular momentum; where one hits a wall within the
 	// step its arm is the radius then
 	const bool both = bodies[c.i].radius > 0 && bodies[c.j].radius > 0;
 	const auto arm  = [&](int id, Real side, Real& lever, space::Vector& aside) {
                 if (bodies[id].radius > 0) { // through a sphere's centre
-                        lever = side * (bodies[id].radius + (both ? 0.5 * link.gap : 0));
+                        lever = side * (bodies[id].radius + (both ? 0.5 * s.gap : 0));
                         return;
                 }
-                const space::Vector a = ours(geom.contactPoint) - problem.positions[id];
+                const space::Vector a = s.point - problem.positions[id];
                 lever                 = dot(a, c.n);
                 aside                 = acrossNormal(c.n, a);
 	};
 	arm(c.i, 1, c.leverI, c.asideI);
 	arm(c.j, -1, c.leverJ, c.asideJ);
-	c.length = link.phys->length;
+	c.length = s.length;
 }
 
 void SpaceSeam::gatherContact(size_t k)
 {
-	const Link& link = links[k];
-	auto&       phys = static_cast<NscdSpacePhys&>(*link.phys);
-	const Real  h = relaxation.step, sign = link.swapped ? -1 : 1;
+	const auto& s = stateOf(k);
+	const Real  h = relaxation.step, sign = s.swapped ? -1 : 1;
 	auto&       c = problem.contacts[k];
-	setFrame(link, c);
-	c.adhesion    = h * phys.adhesion;
-	c.friction    = phys.currentFriction;
-	c.rollingArm  = phys.currentRollingArm;
-	c.twistingArm = phys.currentTwistingArm;
-	c.biasN       = !phys.bonded && link.gap > 0 ? link.gap / h : 0;
-	if (phys.bonded && phys.closes && phys.restGap > 0) { // play, as in the plane (contact/plane/bond.hpp)
-		c.biasN = std::max(link.gap, Real(0)) / h;
-		c.play  = std::max(phys.restGap, link.gap) / h;
+	setFrame(s, c);
+	c.adhesion    = h * s.adhesion;
+	c.friction    = s.friction;
+	c.rollingArm  = s.rollingArm;
+	c.twistingArm = s.twistingArm;
+	c.biasN       = !s.bonded && s.gap > 0 ? s.gap / h : 0;
+	if (s.bonded && s.phys->closes && s.phys->restGap > 0) { // play, as in the plane (contact/plane/bond.hpp)
+		c.biasN = std::max(s.gap, Real(0)) / h;
+		c.play  = std::max(s.phys->restGap, s.gap) / h;
 	}
-	if (phys.restitution > 0 && !phys.bonded) {
+	if (s.restitution > 0 && !s.bonded) {
 		// an impact within the step counts at its full speed; one that does not happen yet is left alone
 		const Real approach = relativeVelocity(c, bodies[c.i].before, bodies[c.j].before).n;
-		if (approach < 0 && link.gap + h * approach <= 0) c.biasN = phys.restitution * approach;
+		if (approach < 0 && s.gap + h * approach <= 0) c.biasN = s.restitution * approach;
 	}
 	if (problem.inverseMass[c.i].isFixed() && problem.inverseMass[c.j].isFixed()) {
 		problem.impulses[k] = {};
 		return;
 	}
 	// the step before had another normal: what was along it or across it is so again
-	const space::Vector shear = sign * h * ours(phys.shearForce), rolling = sign * h * ours(phys.rollingTorque);
-	problem.impulses[k] = { h * phys.normal * c.n + acrossNormal(c.n, shear),
-		                h * phys.twistingTorque * c.n + acrossNormal(c.n, rolling) };
+	const space::Vector shear = sign * h * s.shearForce, rolling = sign * h * s.rollingTorque;
+	problem.impulses[k] = { h * s.pressed * c.n + acrossNormal(c.n, shear),
+		                h * s.twistingTorque * c.n + acrossNormal(c.n, rolling) };
 }
 
 Vector2i SpaceSeam::idsOf(size_t contact) const
 {
-	const Link& l = links[contact];
-	return Vector2i(std::min(l.i, l.j), std::max(l.i, l.j));
+	const auto& s = stateOf(contact);
+	return Vector2i(s.low, s.high);
 }
 
 int SpaceSeam::overlapsOf(Real least) const
 {
-	return int(std::count_if(links.begin(), links.end(), [&](const Link& l) {
-		return -l.gap >= least * l.phys->length;
+	return int(std::count_if(solved.begin(), solved.end(), [&](size_t place) {
+		const auto& s = kept->states[place];
+		return -s.gap >= least * s.length;
 	}));
 }
 

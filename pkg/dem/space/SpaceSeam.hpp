@@ -10,7 +10,7 @@
 #pragma once
 
 #include "../seam/ContactSeam.hpp"
-#include "NscdSpacePhys.hpp"
+#include "SpaceContacts.hpp"
 #include <contact/space/problem.hpp>
 #include <contact/space/solver.hpp>
 #include <optional>
@@ -20,8 +20,9 @@ namespace yade::nscd {
 class SpaceSeam {
 public:
 	/// Makes the contact problem of a step; throws std::runtime_error naming the body or interaction that cannot be
-	/// taken.
-	void gather(Scene& scene, const Vector3r& gravity, const Relaxation& relaxation, int threads);
+	/// taken. Contacts are taken where their interactions are right and not the arrays.
+	void
+	gather(Scene& scene, Resident& resident, const Vector3r& gravity, const Relaxation& relaxation, int threads);
 	/// After a solve: takes in the contacts left out of it that its velocities would close; returns how many. They
 	/// need another solve (seam/Recall.hpp).
 	size_t recall();
@@ -34,7 +35,7 @@ public:
 
 	nonsmooth::contact::space::Problem              problem;
 	std::vector<nonsmooth::contact::space::Impulse> warmStart; // what the solve began with
-	size_t                                          contacts() const { return links.size(); }
+	size_t                                          contacts() const { return solved.size(); }
 	/// Contacts whose bonds broke in the step: (mode, interaction).
 	std::vector<std::pair<int, const Interaction*>> broken;
 	/// Pairs that overlapped by that much and more [ℓ] when the step began.
@@ -50,55 +51,47 @@ private:
 		nonsmooth::contact::space::Twist before,
 		        external; // velocity at the step's beginning; forces and torques of other engines
 	};
-	/// A contact's interaction, and how it stands to the order of ids.
-	struct Link {
-		Interaction*  interaction;
-		const ScGeom* geom;
-		NscdPhys*     phys;
-		int           i, j; // bodies of the contact
-		bool          swapped; // i is the interaction's second body
-		Real          gap;
-	};
-	/// A contact that is left out of the solve, with its bodies, normal, levers and length.
+	/// A contact that is left out of the solve, by its place in the order, with its bodies, normal, levers and length.
 	struct Left {
-		Link                               link;
+		size_t                             place;
 		nonsmooth::contact::space::Contact contact;
-	};
-	/// What one thread has found.
-	struct alignas(64) Found {
-		std::vector<Link> links;
-		std::vector<Left> left;
 	};
 	/// What a part of the contacts, or of the bodies, adds up to.
 	struct Sums : StepSums {
 		std::vector<std::pair<int, const Interaction*>> breaks; // (mode, interaction)
 	};
-	/// What becomes of an interaction in a step.
-	enum class Use { None, Solved, Refused };
+	/// What becomes of a contact in a step.
+	enum class Use : char { None, Solved, LeftOut, Refused };
 
-	void              gatherBodies(Scene& scene, const Vector3r& gravity);
-	Use               useOf(const Interaction& interaction) const;
-	[[noreturn]] void refuse(const Scene& scene, Interaction& interaction) const;
-	void              findContacts(Scene& scene);
-	void              setFrame(const Link& link, nonsmooth::contact::space::Contact& result) const;
-	std::optional<nonsmooth::contact::space::Contact> staysOut(const Link& link) const;
-	static void                                       forgetReactions(const Link& link);
+	void                     gatherBodies(Scene& scene, const Vector3r& gravity);
+	Use                      useOf(const SpaceContactState& state) const;
+	[[noreturn]] void        refuse(const Scene& scene, Interaction& interaction) const;
+	void                     findContacts(const Scene& scene, const std::vector<BodyState>& states);
+	const SpaceContactState& stateOf(size_t contact) const { return kept->states[solved[contact]]; }
+	SpaceContactState&       stateOf(size_t contact) { return kept->states[solved[contact]]; }
+	void setFrame(const SpaceContactState& state, nonsmooth::contact::space::Contact& result) const;
+	std::optional<nonsmooth::contact::space::Contact> staysOut(const SpaceContactState& state) const;
+	static void                                       forgetReactions(SpaceContactState& state);
 	void                                              takeIn(const std::vector<size_t>& taken);
 	void                                              gatherContact(size_t k);
 	bool                                              isHeld(size_t contact) const;
 	void                                              sumReactions();
-	void                                              scatterContact(size_t k, Sums& sums) const;
-	void                                              scatterBody(Scene& scene, size_t id);
+	void                                              scatterContact(size_t k, Sums& sums);
+	void                                              noteYield(
+	                                                     const SpaceContactState& state, const nonsmooth::contact::space::Contact& contact,
+	                                                     const nonsmooth::contact::space::Rows&             rows,
+	                                                     const nonsmooth::contact::space::RelativeVelocity& velocity, Sums& sums) const;
+	void scatterBody(Scene& scene, size_t id);
 	void sumBody(size_t id, const Vector3r& gravity, StepSums& sums) const;
 
 	Relaxation                                            relaxation {};
 	int                                                   threads = 1;
 	std::vector<StepBody>                                 bodies; // by id
-	std::vector<Link>                                     links; // by contact of the problem
-	std::vector<Found>                                    found; // by thread, in no order
-	std::vector<Left>                                     left; // in no order
+	SpaceContacts*                                        kept = nullptr; // of the step
+	std::vector<Use>                                      uses; // by place in the order of contacts
+	std::vector<size_t>                                   solved; // places in it, by contact of the problem
+	std::vector<Left>                                     left; // in it
 	int                                                   recalls = 0; // of this step
-	std::vector<int>                                      linksBefore; // of each body as the one of lower id
 	std::vector<nonsmooth::contact::space::PositionError> errors;
 	nonsmooth::contact::space::PositionCorrection         correction;
 	std::vector<nonsmooth::contact::space::Twist>         reaction; // of contacts on bodies: impulses [N s, N m s]

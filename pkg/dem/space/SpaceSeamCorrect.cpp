@@ -17,18 +17,19 @@ void SpaceSeam::correct(const space::SolverSettings& settings, space::Workspace&
 	correction.displacements.clear();
 	if (sweeps == 0 || relaxation.rate == 0) return;
 	const Real h = relaxation.step, most = h * relaxation.largestSpeed;
-	errors.resize(links.size());
+	errors.resize(solved.size());
 	bool any = false;
 #pragma omp parallel for schedule(static) num_threads(threads) reduction(|| : any)
-	for (long k = 0; k < (long)links.size(); ++k) {
+	for (long k = 0; k < (long)solved.size(); ++k) {
 		const auto& c     = problem.contacts[k];
-		const Real  slack = relaxation.slack * c.length, gap = links[k].gap;
+		const auto& s     = stateOf(k);
+		const Real  slack = relaxation.slack * c.length, gap = s.gap;
 		const Real  end = gap + h * relativeVelocity(c, problem.velocities[c.i], problem.velocities[c.j]).n;
 		// of what was wrong before the step the share 1 − κ may stay; what the step adds may not
 		auto& e          = errors[k];
 		e                = {};
 		const auto stays = [this](Real wrong) { return (1 - relaxation.rate) * wrong; };
-		e.impulse        = links[k].phys->correction;
+		e.impulse        = s.correction;
 		e.held           = isHeld(k);
 		if (!e.held) {
 			e.error = end + slack - stays(std::min(Real(0), gap + slack));
@@ -36,7 +37,7 @@ void SpaceSeam::correct(const space::SolverSettings& settings, space::Workspace&
 			any = any || e.error < 0;
 			continue;
 		}
-		const Real rest = links[k].phys->restGap;
+		const Real rest = s.phys->restGap;
 		if (!(c.play > 0)) {
 			e.error = beyondSlack(end - rest, slack) - stays(beyondSlack(gap - rest, slack));
 			e.error = std::max(-most, std::min(most, e.error));
@@ -56,7 +57,7 @@ void SpaceSeam::correct(const space::SolverSettings& settings, space::Workspace&
 /// Whether a bond holds its length in this step.
 bool SpaceSeam::isHeld(size_t k) const
 {
-	if (!links[k].phys->bonded) return false;
+	if (!stateOf(k).bonded) return false;
 	const auto& c = problem.contacts[k];
 	const auto  u = relativeVelocity(c, problem.velocities[c.i], problem.velocities[c.j]);
 	return !space::yieldsInTension(c, rowsOf(c, problem.impulses[k]), u.n);

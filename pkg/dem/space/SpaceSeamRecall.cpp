@@ -9,28 +9,26 @@ namespace space = nonsmooth::contact::space;
 
 /// A contact that is open and will not close in the step, with its bodies, normal, levers and length; none where it must
 /// be solved for.
-std::optional<space::Contact> SpaceSeam::staysOut(const Link& link) const
+std::optional<space::Contact> SpaceSeam::staysOut(const SpaceContactState& s) const
 {
-	const NscdPhys& phys   = *link.phys;
-	const Real      widest = relaxation.openGap * phys.length;
-	if (phys.bonded || phys.breaks || link.gap <= widest) return {};
+	const Real widest = relaxation.openGap * s.length;
+	if (s.bonded || (!s.kept && s.phys->breaks) || s.gap <= widest) return {};
 	space::Contact c;
-	setFrame(link, c);
+	setFrame(s, c);
 	const auto& v     = problem.freeVelocity;
 	const Real  speed = relativeVelocity(c, v[c.i], v[c.j]).n;
-	if (!staysOpen(link.gap, speed, relaxation.step, widest)) return {};
+	if (!staysOpen(s.gap, speed, relaxation.step, widest)) return {};
 	return c;
 }
 
 /// What is left out bears nothing.
-void SpaceSeam::forgetReactions(const Link& link)
+void SpaceSeam::forgetReactions(SpaceContactState& s)
 {
-	auto& phys   = static_cast<NscdSpacePhys&>(*link.phys);
-	phys.touched = false;
-	if (phys.normal == 0 && phys.correction == 0) return;
-	phys.normal = phys.tangential = phys.torque = phys.twistingTorque = phys.correction = 0;
-	phys.normalForce = phys.shearForce = phys.rollingTorque = Vector3r::Zero();
-	phys.noteForces();
+	if (!s.kept) s.phys->touched = false;
+	if (s.pressed == 0 && s.correction == 0) return;
+	s.pressed = s.tangential = s.torque = s.twistingTorque = s.correction = 0;
+	s.normalForce = s.shearForce = s.rollingTorque = {};
+	if (!s.kept) SpaceContacts::writeReactions(s);
 }
 
 size_t SpaceSeam::recall()
@@ -38,7 +36,7 @@ size_t SpaceSeam::recall()
 	const auto gapAfter = [this](size_t k) {
 		const auto& c = left[k].contact;
 		const auto& v = problem.velocities;
-		return left[k].link.gap + relaxation.step * relativeVelocity(c, v[c.i], v[c.j]).n;
+		return kept->states[left[k].place].gap + relaxation.step * relativeVelocity(c, v[c.i], v[c.j]).n;
 	};
 	const auto taken = toBeTakenIn(left.size(), recalls, gapAfter, [this](size_t k) {
 		return left[k].contact.length;
@@ -50,19 +48,14 @@ size_t SpaceSeam::recall()
 /// Takes contacts that were left out into the solve, into the order of ids.
 void SpaceSeam::takeIn(const std::vector<size_t>& taken)
 {
-	const auto        key = [](const Link& l) { return std::minmax(l.i, l.j); };
-	std::vector<Link> added;
-	for (const size_t k : taken)
-		added.push_back(left[k].link);
-	std::sort(added.begin(), added.end(), [&](const Link& a, const Link& b) { return key(a) < key(b); });
 	mergeInto(
-	        links.size(), added.size(), [&](size_t o, size_t a) { return key(links[o]) > key(added[a]); },
+	        solved.size(), taken.size(), [&](size_t o, size_t a) { return solved[o] > left[taken[a]].place; },
 	        [&](size_t a, size_t to) {
-		        links[to] = added[a];
+		        solved[to] = left[taken[a]].place;
 		        gatherContact(to);
 		        warmStart[to] = problem.impulses[to];
 	        },
-	        links, problem.contacts, problem.impulses, warmStart);
+	        solved, problem.contacts, problem.impulses, warmStart);
 	eraseAt(left, taken);
 }
 

@@ -19,7 +19,7 @@ namespace {
 
 StepSums SpaceSeam::scatter(Scene& scene, const Vector3r& gravity)
 {
-	const size_t      count = links.size(), ofContacts = chunksOf(count), ofBodies = chunksOf(bodies.size());
+	const size_t      count = solved.size(), ofContacts = chunksOf(count), ofBodies = chunksOf(bodies.size());
 	std::vector<Sums> parts(ofContacts + ofBodies);
 #pragma omp parallel num_threads(threads)
 	{
@@ -29,7 +29,8 @@ StepSums SpaceSeam::scatter(Scene& scene, const Vector3r& gravity)
 #pragma omp for schedule(dynamic, 1)
 		for (long part = 0; part < (long)ofContacts; ++part)
 			for (size_t k = part * sumChunk; k < std::min((part + 1) * sumChunk, count); ++k) {
-				if (k + soon < count) fetch<sizeof(NscdSpacePhys)>(links[k + soon].phys);
+				if (k + soon < count && !stateOf(k + soon).kept)
+					fetch<sizeof(NscdSpacePhys)>(stateOf(k + soon).phys);
 				scatterContact(k, parts[part]);
 			}
 #pragma omp for schedule(static)
@@ -53,7 +54,7 @@ StepSums SpaceSeam::scatter(Scene& scene, const Vector3r& gravity)
 void SpaceSeam::sumReactions()
 {
 	reaction.assign(bodies.size(), {});
-	for (size_t k = 0; k < links.size(); ++k) {
+	for (size_t k = 0; k < solved.size(); ++k) {
 		const auto&         c    = problem.contacts[k];
 		const auto&         p    = problem.impulses[k];
 		auto&               ri   = reaction[c.i];
@@ -81,63 +82,69 @@ void SpaceSeam::scatterBody(Scene& scene, size_t id)
 	(*scene.bodies)[id]->state->pos += theirs(d.v);
 }
 
-void SpaceSeam::scatterContact(size_t k, Sums& sums) const
+void SpaceSeam::scatterContact(size_t k, Sums& sums)
 {
-	const Link& link = links[k];
-	const auto& c    = problem.contacts[k];
-	const auto& p    = problem.impulses[k];
-	auto&       phys = static_cast<NscdSpacePhys&>(*link.phys);
-	const Real  h = relaxation.step, sign = link.swapped ? -1 : 1;
-	const auto  rows    = rowsOf(c, p);
-	phys.normal         = rows.n / h;
-	phys.normalForce    = theirs(sign / h * rows.n * c.n);
-	phys.shearForce     = theirs(sign / h * rows.t);
-	phys.tangential     = std::sqrt(dot(rows.t, rows.t)) / h;
-	phys.rollingTorque  = theirs(sign / h * rows.r);
-	phys.torque         = std::sqrt(dot(rows.r, rows.r)) / h;
-	phys.twistingTorque = rows.s / h;
-	phys.correction     = correction.displacements.empty() ? 0 : correction.impulses[k];
-	phys.noteForces();
-	phys.touched = false;
+	auto&       s = stateOf(k);
+	const auto& c = problem.contacts[k];
+	const auto& p = problem.impulses[k];
+	const Real  h = relaxation.step, sign = s.swapped ? -1 : 1;
+	const auto  rows = rowsOf(c, p);
+	s.pressed        = rows.n / h;
+	s.normalForce    = sign / h * rows.n * c.n;
+	s.shearForce     = sign / h * rows.t;
+	s.tangential     = std::sqrt(dot(rows.t, rows.t)) / h;
+	s.rollingTorque  = sign / h * rows.r;
+	s.torque         = std::sqrt(dot(rows.r, rows.r)) / h;
+	s.twistingTorque = rows.s / h;
+	s.correction     = correction.displacements.empty() ? 0 : correction.impulses[k];
+	if (!s.kept) SpaceContacts::writeReactions(s);
 
 	// work of the impulse over the step, exact for constant mass: P·(U⁻ + U⁺)/2
 	const auto u0         = relativeVelocity(c, bodies[c.i].before, bodies[c.j].before),
 	           u1         = relativeVelocity(c, problem.velocities[c.i], problem.velocities[c.j]);
 	const Real normalWork = 0.5 * rows.n * (u0.n + u1.n), shearWork = 0.5 * dot(rows.t, u0.t + u1.t);
-	const bool held = phys.bonded && !space::yieldsInTension(c, rows, u1.n) && !phys.yielded;
+	const bool held = s.bonded && !space::yieldsInTension(c, rows, u1.n) && !s.phys->yielded;
 	// tension in a bond that does not open loses nothing
 	if (rows.n < 0 && held) sums.heldWork += normalWork;
 	else
 		(rows.n < 0 ? sums.debonding : sums.impact) -= normalWork;
-	if (phys.brokenMode != NscdPhys::None && phys.breaks) {
-		++sums.broken[phys.brokenMode];
-		sums.breaks.emplace_back(phys.brokenMode, link.interaction);
-		phys.breaks = false;
-	}
-	phys.yielded = phys.slid = phys.rolled = false;
-	if (phys.bonded) {
-		const auto y = space::yieldOfStep(c, rows, u1, h);
-		phys.yielded = space::yieldsInTension(c, rows, u1.n);
-		phys.slid    = y.shear > 0;
-		phys.rolled  = y.rolling > 0;
-		phys.yieldPath += Vector3r(y.tension, y.shear, y.rolling);
-		phys.twistingPath += y.twisting;
-	}
+	if (!s.kept) noteYield(s, c, rows, u1, sums);
 	sums.sliding -= shearWork;
 	sums.rolling -= 0.5 * dot(p.m, u0.w + u1.w);
 	if (bodies[c.i].radius < 0 && shearWork != 0) sums.slidingOnWalls.emplace_back(c.i, -shearWork);
-	if (phys.restitution > 0 && !phys.bonded && c.biasN > 0 && rows.n > 0)
-		sums.missed -= phys.restitution * phys.restitution * std::min(Real(0), normalWork);
+	if (s.restitution > 0 && !s.bonded && c.biasN > 0 && rows.n > 0)
+		sums.missed -= s.restitution * s.restitution * std::min(Real(0), normalWork);
 	const bool placed  = problem.inverseMass[c.i].isFixed() && problem.inverseMass[c.j].isFixed();
-	const Real overlap = placed ? 0 : std::max(Real(0), -link.gap) / c.length;
+	const Real overlap = placed ? 0 : std::max(Real(0), -s.gap) / c.length;
 	sums.overlap += overlap;
 	if (overlap > sums.worstOverlap) {
 		sums.worstOverlap = overlap;
 		sums.worstIds[0]  = std::min(c.i, c.j);
 		sums.worstIds[1]  = std::max(c.i, c.j);
 	}
-	sums.touching += rows.n != 0 || link.gap <= 0;
-	sums.bonds += phys.bonded;
+	sums.touching += rows.n != 0 || s.gap <= 0;
+	sums.bonds += s.bonded;
+}
+
+/// What a step has made of a bond, and that one has broken.
+void SpaceSeam::noteYield(
+        const SpaceContactState& s, const space::Contact& c, const space::Rows& rows, const space::RelativeVelocity& u,
+        Sums& sums) const
+{
+	auto& phys = *s.phys;
+	if (phys.brokenMode != NscdPhys::None && phys.breaks) {
+		++sums.broken[phys.brokenMode];
+		sums.breaks.emplace_back(phys.brokenMode, s.interaction);
+		phys.breaks = false;
+	}
+	phys.yielded = phys.slid = phys.rolled = false;
+	if (!s.bonded) return;
+	const auto y = space::yieldOfStep(c, rows, u, relaxation.step);
+	phys.yielded = space::yieldsInTension(c, rows, u.n);
+	phys.slid    = y.shear > 0;
+	phys.rolled  = y.rolling > 0;
+	phys.yieldPath += Vector3r(y.tension, y.shear, y.rolling);
+	phys.twistingPath += y.twisting;
 }
 
 void SpaceSeam::sumBody(size_t id, const Vector3r& gravity, StepSums& sums) const

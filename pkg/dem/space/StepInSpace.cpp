@@ -8,13 +8,15 @@ namespace yade {
 
 namespace contact = nonsmooth::contact;
 
-void ContactDynamicsEngine::stepInSpace(nscd::StageTimer& timer, const Vector3r& gravity, int threads)
+void ContactDynamicsEngine::stepInSpace(
+        nscd::Resident& resident, nscd::StageTimer& timer, const Vector3r& gravity, int threads)
 {
 	using nscd::Stage;
 	problemIsWhole = false;
 	wasInSpace     = true;
 	inSpace.gather(
-	        *scene, gravity, { scene->dt, relaxationRate, correctionSpeed, correctionSlack, openGap }, threads);
+	        *scene, resident, gravity, { scene->dt, relaxationRate, correctionSpeed, correctionSlack, openGap },
+	        threads);
 	stepSolved = scene->dt;
 	timer.next(Stage::Solve);
 	contact::space::SolverSettings how;

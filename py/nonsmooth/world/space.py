@@ -18,8 +18,8 @@ from yade.wrapper import (
     InsertionSortCollider,
     Ip2_NscdMat_NscdMat_NscdPhys,
     Law2_ScGeom_NscdPhys_SignoriniCoulomb,
-    NewtonIntegrator,
     NscdInteractionLoop,
+    SpatialNewtonIntegrator,
     Sphere,
     Wall,
 )
@@ -82,6 +82,6 @@ def engines(
         loop(reach, adhesion_range),
         *before,
         ContactDynamicsEngine(**{"label": label, "openGap": OPEN_GAP, **options}),
-        NewtonIntegrator(damping=0, gravity=gravity),
+        SpatialNewtonIntegrator(damping=0, gravity=gravity),
         *after,
     ]

@@ -372,7 +372,7 @@ MUTANTS = (
            "test_given_pairs.py::test_bodies_that_are_driven_into_each_other_are_told_of"),
     mutant("collider-mended", "pkg/dem/engines/PlanarGridColliderSearch.cpp", "isThere(disks[id])", "regions.of(int(id)) >= 0", "a disk whose place was no number has no contacts once that is mended",
            "test_collider.py::test_a_place_that_was_no_number_and_is_mended_has_contacts_again"),
-    mutant("newton-margin", "pkg/dem/engines/PlanarNewtonIntegrator.cpp", "farthest < bound.sweepLength", "true", "YADE's collider is not told that a body has left its box",
+    mutant("newton-margin", "pkg/dem/engines/Leapfrog.hpp", "farthest < bound.sweepLength", "true", "YADE's collider is not told that a body has left its box",
            "test_collider.py::test_every_pair_of_colliders_and_loops_has_the_same_bits"),
     mutant("given-far-size", "pkg/dem/seam/GivenMotion.cpp", "farthest * smallest", "farthest / smallest", "how far a body is placed anew is no length",
            "test_given_motion.py::test_jumps_and_moves_after_long_are_places_and_are_told_of"),

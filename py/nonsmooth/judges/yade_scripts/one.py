@@ -23,6 +23,7 @@ _REFUSALS = (
     "NscdInteractionLoop:",
     "PlanarGridCollider:",
     "PlanarNewtonIntegrator:",
+    "SpatialNewtonIntegrator:",
 )
 
 

@@ -1,0 +1,325 @@
+#include "SpaceContacts.hpp"
+#include "../seam/Prefetch.hpp"
+#include "../seam/Recall.hpp"
+#include "../seam/Resident.hpp"
+#include "../seam/StageClock.hpp"
+#include "Vectors.hpp"
+#include <neighbours/bucket_sort.hpp>
+#include <neighbours/thread_part.hpp>
+#include <pkg/common/InsertionSortCollider.hpp>
+
+namespace yade::nscd {
+
+namespace {
+	/// A real interaction, by its place in the list.
+	struct Place {
+		int low, high, place;
+	};
+
+	SpaceContactState stateOf(Interaction& interaction)
+	{
+		SpaceContactState s;
+		s.interaction = &interaction;
+		s.geom        = static_cast<ScGeom*>(interaction.geom.get());
+		IPhys& phys   = *interaction.phys;
+		s.phys        = typeid(phys) == typeid(NscdSpacePhys) ? static_cast<NscdSpacePhys*>(&phys) : nullptr;
+		std::tie(s.low, s.high) = std::minmax({ interaction.getId1(), interaction.getId2() });
+		return s;
+	}
+
+	bool isBefore(const SpaceContactState& a, const SpaceContactState& b)
+	{
+		return std::make_pair(a.low, a.high) < std::make_pair(b.low, b.high);
+	}
+}
+
+SpaceContacts& SpaceContacts::of(Resident& resident)
+{
+	if (!resident.inSpace) resident.inSpace = std::make_shared<SpaceContacts>();
+	return static_cast<SpaceContacts&>(*resident.inSpace);
+}
+
+bool SpaceContacts::isSound(NscdSpacePhys& phys, const ScGeom& geom)
+{
+	if (!std::isfinite(geom.normal.sum())) return false;
+	phys.hearReset();
+	const bool makesSense = phys.makesSenseAtOnce() || !phys.senseless().first;
+	return makesSense && !phys.unheard() && phys.length > 0;
+}
+
+bool SpaceContacts::canBeKept(const State& s)
+{
+	return s.phys && s.interaction->isActive && !s.phys->bonded && !s.phys->breaks && isSound(*s.phys, *s.geom);
+}
+
+void SpaceContacts::read(State& s, const std::vector<BodyState>& bodies)
+{
+	const int   id1 = s.interaction->getId1(), id2 = s.interaction->getId2();
+	const auto& phys  = *s.phys;
+	const bool  ball1 = bodies[id1].radius > 0, ball2 = bodies[id2].radius > 0;
+	s.swapped        = ball1 && ball2 ? id1 > id2 : ball1;
+	s.i              = s.swapped ? id2 : id1;
+	s.j              = s.swapped ? id1 : id2;
+	s.bonded         = phys.bonded;
+	s.normal         = ours(s.geom->normal);
+	s.point          = ours(s.geom->contactPoint);
+	s.gap            = -s.geom->penetrationDepth;
+	s.length         = phys.length;
+	s.adhesion       = phys.adhesion;
+	s.friction       = phys.currentFriction;
+	s.rollingArm     = phys.currentRollingArm;
+	s.twistingArm    = phys.currentTwistingArm;
+	s.restitution    = phys.restitution;
+	s.pressed        = phys.normal;
+	s.shearForce     = ours(phys.shearForce);
+	s.rollingTorque  = ours(phys.rollingTorque);
+	s.twistingTorque = phys.twistingTorque;
+	s.correction     = phys.correction;
+}
+
+void SpaceContacts::keep(State& s, const std::vector<BodyState>& bodies)
+{
+	read(s, bodies);
+	s.residualAdhesion = s.phys->residualTensileForce;
+	s.normalForce      = ours(s.phys->normalForce);
+	s.tangential       = s.phys->tangential;
+	s.torque           = s.phys->torque;
+	s.phys->touched    = false; // from now on a sign of others
+	s.kept             = true;
+}
+
+void SpaceContacts::writeReactions(const State& s)
+{
+	auto& phys          = *s.phys;
+	phys.normal         = s.pressed;
+	phys.normalForce    = theirs(s.normalForce);
+	phys.shearForce     = theirs(s.shearForce);
+	phys.tangential     = s.tangential;
+	phys.rollingTorque  = theirs(s.rollingTorque);
+	phys.torque         = s.torque;
+	phys.twistingTorque = s.twistingTorque;
+	phys.correction     = s.correction;
+	phys.touched        = false;
+	phys.noteForces();
+}
+
+void SpaceContacts::take(Scene& scene, const std::vector<BodyState>& bodies, int threadCount)
+{
+	const double begin = steadySeconds();
+	threads            = threadCount;
+	auto&      list    = *scene.interactions;
+	const long count   = (long)list.size();
+	const int  size    = (int)bodies.size();
+	struct alignas(64) Found {
+		std::vector<Place> real;
+	};
+	std::vector<Found> found(threads);
+#pragma omp parallel num_threads(threads)
+	{
+		auto& real = nonsmooth::neighbours::partOfThread(found).real;
+#pragma omp for schedule(static)
+		for (long k = 0; k < count; ++k) {
+			if (k + (long)later < count) fetch<sizeof(Interaction)>(list[k + later].get());
+			const Interaction& I = *list[k];
+			if (!I.isReal()) continue;
+			const auto [low, high] = std::minmax({ I.getId1(), I.getId2() });
+			if (low >= 0 && high < size) real.push_back({ low, high, int(k) });
+		}
+	}
+	const auto each = [&](auto use) {
+		for (const auto& part : found)
+			for (const Place& place : part.real)
+				use(place.low, place);
+	};
+	std::vector<int>   begins;
+	std::vector<Place> order;
+	nonsmooth::neighbours::sortIntoBuckets(bodies.size(), each, begins, order);
+#pragma omp parallel for schedule(static) num_threads(threads)
+	for (long id = 0; id < size; ++id)
+		std::sort(
+		        order.begin() + begins[id], order.begin() + begins[id + 1],
+		        [](const Place& a, const Place& b) { return a.high < b.high; });
+	letAllGo();
+	const long all = (long)order.size();
+	states.resize(all);
+#pragma omp parallel for schedule(static) num_threads(threads)
+	for (long k = 0; k < all; ++k) {
+		if (k + (long)later < all) fetch<sizeof(Interaction)>(list[order[k + later].place].get());
+		if (k + (long)soon < all) fetch<1>(list[order[k + soon].place]->phys.get());
+		states[k] = stateOf(*list[order[k].place]);
+	}
+	areKnown = false;
+	areOwned = true;
+	costOfLook += steadySeconds() - begin;
+}
+
+SpaceContacts::Stamp SpaceContacts::stampOf(const Scene& scene)
+{
+	Stamp stamp { scene.interactions->size(), 0 };
+	for (const auto& engine : scene.engines) {
+		if (engine->dead || !dynamic_cast<const Collider*>(engine.get())) continue;
+		const auto* sorts = dynamic_cast<const InsertionSortCollider*>(engine.get());
+		// of others it cannot be told whether they have acted
+		stamp.looks += sorts ? sorts->numAction : scene.iter;
+	}
+	return stamp;
+}
+
+bool SpaceContacts::follow(Scene& scene)
+{
+	const Stamp now = stampOf(scene);
+	if (areKnown && now == seen) return true;
+	seen     = now;
+	areKnown = true;
+	return notePotential(*scene.interactions);
+}
+
+bool SpaceContacts::notePotential(InteractionContainer& list)
+{
+	const long count = (long)list.size();
+	struct alignas(64) Found {
+		std::vector<Potential> potential;
+	};
+	std::vector<Found> found(threads);
+	long               real = 0;
+#pragma omp parallel num_threads(threads) reduction(+ : real)
+	{
+		auto& own = nonsmooth::neighbours::partOfThread(found).potential;
+#pragma omp for schedule(static)
+		for (long k = 0; k < count; ++k) {
+			if (k + (long)later < count) fetch<sizeof(Interaction)>(list[k + later].get());
+			const Interaction& I   = *list[k];
+			const auto [low, high] = std::minmax({ I.getId1(), I.getId2() });
+			if (I.isReal()) ++real;
+			else
+				own.push_back({ int(k), low, high, false });
+		}
+	}
+	potential.clear();
+	for (const auto& part : found)
+		potential.insert(potential.end(), part.potential.begin(), part.potential.end());
+	return real == (long)states.size();
+}
+
+void SpaceContacts::change(
+        Scene& scene, const std::vector<std::size_t>& begun, const std::vector<std::size_t>& ended,
+        const std::function<void(State&)>& keep)
+{
+	auto&                  list = *scene.interactions;
+	std::vector<Potential> left;
+	for (const std::size_t k : ended) {
+		const State& s = states[k];
+		// held where another thread may have taken it out of the list
+		const auto I = holders.empty() ? list[s.interaction->linIx] : holders[k].interaction;
+		left.push_back({ I->linIx, s.low, s.high, s.kept });
+		end(I, list);
+		if (!holders.empty()) holders[k].letGo();
+	}
+	eraseAt(states, ended);
+	const bool held = !holders.empty();
+	if (held) eraseAt(holders, ended);
+	std::vector<State> added;
+	for (const std::size_t k : begun) {
+		added.push_back(stateOf(*list[potential[k].place]));
+		keep(added.back());
+	}
+	eraseAt(potential, begun);
+	potential.insert(potential.end(), left.begin(), left.end());
+	if (added.empty()) return;
+	std::sort(added.begin(), added.end(), isBefore);
+	const auto isBehind = [&](size_t o, size_t a) { return isBefore(added[a], states[o]); };
+	if (held)
+		mergeInto(
+		        states.size(), added.size(), isBehind,
+		        [&](size_t a, size_t to) {
+			        states[to]    = added[a];
+			        const auto& I = list[added[a].interaction->linIx];
+			        holders[to]   = { I, I->geom, I->phys };
+		        },
+		        states, holders);
+	else
+		mergeInto(
+		        states.size(), added.size(), isBehind, [&](size_t a, size_t to) { states[to] = added[a]; },
+		        states);
+}
+
+void SpaceContacts::end(const shared_ptr<Interaction>& interaction, InteractionContainer& list)
+{
+	nscd::letGo(interaction->geom);
+	nscd::letGo(interaction->phys);
+	list.requestErase(interaction);
+}
+
+void SpaceContacts::lookAgain(std::size_t k)
+{
+	Interaction& I = *states[k].interaction;
+	if (I.phys.get() == states[k].phys && I.geom.get() == states[k].geom) return;
+	states[k] = stateOf(I);
+	if (holders.empty()) return;
+	nscd::letGo(holders[k].geom);
+	nscd::letGo(holders[k].phys);
+	holders[k].geom = I.geom;
+	holders[k].phys = I.phys;
+}
+
+void SpaceContacts::show()
+{
+	if (!areOwned) return;
+	const double begin = steadySeconds();
+	const long   count = (long)states.size();
+#pragma omp parallel for schedule(static) num_threads(threads)
+	for (long k = 0; k < count; ++k) {
+		if (k + (long)soon < count && states[k + soon].kept) {
+			fetch<partOfGeometry>(states[k + soon].geom);
+			fetch<sizeof(NscdSpacePhys)>(states[k + soon].phys);
+		}
+		const State& s = states[k];
+		if (!s.kept) continue;
+		auto& geom            = *s.geom;
+		auto& phys            = *s.phys;
+		geom.normal           = theirs(s.normal);
+		geom.penetrationDepth = -s.gap;
+		geom.contactPoint     = theirs(s.point);
+		if (phys.touched || phys.isWritten()) continue;
+		phys.adhesion = s.adhesion;
+		phys.yielded = phys.slid = phys.rolled = false;
+		writeReactions(s);
+	}
+	areOwned = false;
+	letAllGo();
+	lastShown  = steadySeconds();
+	costOfLook = lastShown - begin;
+}
+
+bool SpaceContacts::isDue(double least, double share) const
+{
+	return steadySeconds() - lastShown > std::max(least, share * costOfLook);
+}
+
+void SpaceContacts::hold()
+{
+	if (!holders.empty()) return;
+	const long count = (long)states.size();
+	holders.resize(count);
+#pragma omp parallel for schedule(static) num_threads(threads)
+	for (long k = 0; k < count; ++k) {
+		Interaction& I = *states[k].interaction;
+		holders[k]     = { boost::static_pointer_cast<Interaction>(I.shared_from_this()), I.geom, I.phys };
+	}
+}
+
+void SpaceContacts::leaveAlone()
+{
+	if (!areOwned) return;
+	hold();
+	areKnown = false;
+}
+
+void SpaceContacts::letAllGo()
+{
+	for (Holder& one : holders)
+		one.letGo();
+	holders.clear();
+}
+
+} // namespace yade::nscd
