@@ -25,6 +25,7 @@
 #include <pkg/common/Collider.hpp>
 #include <pkg/common/ElastMat.hpp>
 #include <pkg/common/ForceEngine.hpp>
+#include <pkg/common/InsertionSortCollider.hpp>
 #include <pkg/common/PeriodicEngines.hpp>
 #include <pkg/common/Sphere.hpp>
 #include <pkg/common/TorqueEngine.hpp>
@@ -209,6 +210,7 @@ void checkLayout()
 	check("UniaxialStrainer", "asymmetry", &UniaxialStrainer::asymmetry, 1);
 	check("UniaxialStrainer", "crossSectionArea", &UniaxialStrainer::crossSectionArea, 2.375);
 	check("UniaxialStrainer", "stressUpdateInterval", &UniaxialStrainer::stressUpdateInterval, 55);
+	check("InsertionSortCollider", "numAction", &InsertionSortCollider::numAction, 7);
 	check("NewtonIntegrator", "ompThreads", &NewtonIntegrator::ompThreads, 3);
 	check("NewtonIntegrator", "damping", &NewtonIntegrator::damping, 0.0625);
 	check("NewtonIntegrator", "mask", &NewtonIntegrator::mask, 5);

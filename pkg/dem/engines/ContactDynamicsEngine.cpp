@@ -30,7 +30,7 @@ void ContactDynamicsEngine::action()
 	auto&            resident = turn.resident();
 	validate();
 	const auto gravity = nscd::gravityOf(*scene);
-	if (nscd::isInSpace(*scene, resident.bodies)) {
+	if (nscd::isInSpace(*scene, resident)) {
 		resident.show({ "the step in space", false, true, true, false });
 		stepInSpace(resident, timer, gravity, threads);
 		turn.end();

@@ -2,9 +2,7 @@
 // (PlanarNewtonIntegrator, SpatialNewtonIntegrator) have in common.
 #pragma once
 
-#include <core/Bound.hpp>
 #include <core/Scene.hpp>
-#include <core/State.hpp>
 #include <pkg/dem/NewtonIntegrator.hpp>
 
 namespace yade::nscd {

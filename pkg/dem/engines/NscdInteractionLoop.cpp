@@ -134,9 +134,10 @@ void NscdInteractionLoop::action()
 	const Ours  now { exactly<Ig2_Sphere_Sphere_ScGeom>(shapes), exactly<Ig2_Segment_Sphere_ScGeom>(shapes),
                          exactly<Ig2_Arc_Sphere_ScGeom>(shapes),
                          exactly<Law2_ScGeom_NscdPhys_SignoriniCoulomb>(lawDispatcher->functors), colliderBefore() };
-	if (resident.hasAnyContacts() && (now.spheres != ours.spheres || now.law != ours.law)) resident.show();
+	const bool  exchanged = now.spheres != ours.spheres || now.law != ours.law;
+	if (exchanged && (!resident.order.empty() || resident.hasContactsInSpace())) resident.show();
 	ours = now;
-	if (nscd::isInSpace(*scene, resident.bodies)) {
+	if (nscd::isInSpace(*scene, resident)) {
 		if (resident.hasContacts()) resident.show();
 		resident.potentialOf = nscd::Resident::never;
 		actInSpace(resident, threads);

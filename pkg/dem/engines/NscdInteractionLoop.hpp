@@ -30,8 +30,9 @@ public:
 R"""(:yref:`InteractionLoop` for simulations of :yref:`ContactDynamicsEngine`: the same lists of functors, the same results, about twice
 as fast. Contacts of two :yref:`spheres<Sphere>` with :yref:`NscdPhys` are kept up to date without their functor: position, normal and overlap are those
 of :yref:`Ig2_Sphere_Sphere_ScGeom`; ``shearInc`` and the axes of rotation, which rigid contacts have no use for, are zero. Such a contact gets its interaction
-when somebody looks, see :yref:`ContactDynamicsEngine.advance`, and until then has all that its functors would have given it. With periodic
-boundaries, callbacks, sorted interactions or a LawTester it is the plain loop.)""");
+when somebody looks, see :yref:`ContactDynamicsEngine.advance`, and until then has all that its functors would have given it. In space such
+a contact has an interaction, which follows when somebody looks while there is no bond. With periodic boundaries, callbacks, sorted interactions or a LawTester it is the
+plain loop.)""");
 	// clang-format on
 private:
 	/// The functors that contacts, or disks out of their reach, may do without, each null where there is none; and

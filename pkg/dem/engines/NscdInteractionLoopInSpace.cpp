@@ -112,8 +112,8 @@ bool NscdInteractionLoop::followKept(nscd::SpaceContacts& contacts, const nscd::
 	const auto& bodies    = resident.bodies;
 	auto&       states    = contacts.states;
 	auto&       potential = contacts.potential;
-	const long  count = (long)states.size(), unreal = (long)potential.size();
-	const auto  isPlain = [&](int id) { return bodies[id].present && bodies[id].plain; };
+	const long  count = (long)contacts.order.size(), unreal = (long)potential.size();
+	const auto  isPlain = [&](int id) { return id < (int)bodies.size() && bodies[id].present && bodies[id].plain; };
 	bool        lost    = false;
 	struct alignas(64) Part {
 		Places begun, ended, refused; // the last ones by their place in the list
@@ -125,14 +125,15 @@ bool NscdInteractionLoop::followKept(nscd::SpaceContacts& contacts, const nscd::
 		auto& part = nonsmooth::neighbours::partOfThread(parts);
 #pragma omp for schedule(static) nowait
 		for (long k = 0; k < count; ++k) {
-			auto& s = states[k];
+			const int slot = contacts.order[k].slot;
+			auto&     s    = states[slot];
 			if (s.kept && (!ours.spheres || !ours.law || !isPlain(s.i) || !isPlain(s.j))) lost = true;
 			else if (s.kept) {
 				if (!follow(s, bodies)) part.ended.push_back(k);
 			} else if (!visit(list[s.interaction->linIx], bodies, error) || !s.interaction->isReal())
 				part.ended.push_back(k);
 			else {
-				contacts.lookAgain(k); // functors may have given it other objects
+				contacts.lookAgain(slot); // functors may have given it other objects
 				keep(s, bodies);
 			}
 		}

@@ -5,6 +5,7 @@
 #include "Prefetch.hpp"
 #include <map>
 #include <neighbours/bucket_sort.hpp>
+#include <neighbours/thread_part.hpp>
 
 namespace yade::nscd {
 
@@ -33,11 +34,24 @@ void Resident::takeBodies(Scene& scene)
 	followSizes(scene, changed);
 	shaped.clear();
 	driven.clear();
-	for (size_t id = 0; id < bodies.size(); ++id) {
-		const BodyState& b = bodies[id];
-		if (!b.present) continue;
-		if (!(b.radius > 0) && !b.clumped) shaped.push_back(int(id));
-		if (b.blocked & inPlane) driven.push_back(int(id));
+	struct alignas(64) Found {
+		std::vector<int> shaped, driven;
+	};
+	std::vector<Found> parts(threads); // each in order, since each has a stretch of the bodies
+#pragma omp parallel num_threads(threads)
+	{
+		Found& part = nonsmooth::neighbours::partOfThread(parts);
+#pragma omp for schedule(static)
+		for (long id = 0; id < (long)bodies.size(); ++id) {
+			const BodyState& b = bodies[id];
+			if (!b.present) continue;
+			if (!(b.radius > 0) && !b.clumped) part.shaped.push_back(int(id));
+			if (b.blocked & inPlane) part.driven.push_back(int(id));
+		}
+	}
+	for (const Found& part : parts) {
+		shaped.insert(shaped.end(), part.shaped.begin(), part.shaped.end());
+		driven.insert(driven.end(), part.driven.begin(), part.driven.end());
 	}
 	asShown.resize(othersMayLook(scene) ? bodies.size() : 0);
 	for (size_t id = 0; id < asShown.size(); ++id)

@@ -87,8 +87,7 @@ public:
 	/// Whether the arrays are right and not the objects.
 	bool hasBodies() const { return bodiesOwned; }
 	bool hasContacts() const { return contactsOwned; }
-	/// The same of contacts in space, too.
-	bool hasAnyContacts() const { return contactsOwned || (inSpace && inSpace->owned()); }
+	bool hasContactsInSpace() const { return inSpace && inSpace->owned(); }
 
 	void takeBodies(Scene& scene);
 	/// Takes all interactions that are real, and notes the others.

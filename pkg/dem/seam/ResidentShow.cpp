@@ -130,7 +130,7 @@ void Resident::show(const Look& look)
 	const std::lock_guard<std::recursive_mutex> guard(lock);
 	const double                                begin = steadySeconds();
 	const auto                                  kept  = container.lock();
-	const bool                                  all   = look.inSpace && inSpace && inSpace->owned();
+	const bool                                  all   = look.inSpace && hasContactsInSpace();
 	if (all) inSpace->show();
 	if (look.makes) makeAll();
 	if (kept && contactsOwned) {
@@ -152,8 +152,9 @@ void Resident::show(const Look& look)
 		const long count = (long)std::min(bodies.size(), kept->size());
 #pragma omp parallel for schedule(static) num_threads(threads)
 		for (long id = 0; id < count; ++id) {
-			if (id + (long)later < count) fetch<sizeof(Body)>((*kept)[id + later].get());
-			if (id + (long)soon < count && (*kept)[id + soon])
+			if (id + (long)later < count && bodies[id + later].moved)
+				fetch<sizeof(Body)>((*kept)[id + later].get());
+			if (id + (long)soon < count && bodies[id + soon].moved && (*kept)[id + soon])
 				fetch<sizeof(State)>((*kept)[id + soon]->state.get());
 			write(bodies[id], (*kept)[id], id,
 			      asShown); // threads would wait for each other if each body asked for the container

@@ -11,11 +11,6 @@
 namespace yade::nscd {
 
 namespace {
-	/// A real interaction, by its place in the list.
-	struct Place {
-		int low, high, place;
-	};
-
 	SpaceContactState stateOf(Interaction& interaction)
 	{
 		SpaceContactState s;
@@ -23,11 +18,10 @@ namespace {
 		s.geom        = static_cast<ScGeom*>(interaction.geom.get());
 		IPhys& phys   = *interaction.phys;
 		s.phys        = typeid(phys) == typeid(NscdSpacePhys) ? static_cast<NscdSpacePhys*>(&phys) : nullptr;
-		std::tie(s.low, s.high) = std::minmax({ interaction.getId1(), interaction.getId2() });
 		return s;
 	}
 
-	bool isBefore(const SpaceContactState& a, const SpaceContactState& b)
+	bool isBefore(const SpaceContacts::Place& a, const SpaceContacts::Place& b)
 	{
 		return std::make_pair(a.low, a.high) < std::make_pair(b.low, b.high);
 	}
@@ -131,8 +125,7 @@ void SpaceContacts::take(Scene& scene, const std::vector<BodyState>& bodies, int
 			for (const Place& place : part.real)
 				use(place.low, place);
 	};
-	std::vector<int>   begins;
-	std::vector<Place> order;
+	std::vector<int> begins;
 	nonsmooth::neighbours::sortIntoBuckets(bodies.size(), each, begins, order);
 #pragma omp parallel for schedule(static) num_threads(threads)
 	for (long id = 0; id < size; ++id)
@@ -144,10 +137,14 @@ void SpaceContacts::take(Scene& scene, const std::vector<BodyState>& bodies, int
 	states.resize(all);
 #pragma omp parallel for schedule(static) num_threads(threads)
 	for (long k = 0; k < all; ++k) {
-		if (k + (long)later < all) fetch<sizeof(Interaction)>(list[order[k + later].place].get());
-		if (k + (long)soon < all) fetch<1>(list[order[k + soon].place]->phys.get());
-		states[k] = stateOf(*list[order[k].place]);
+		if (k + (long)later < all) fetch<sizeof(Interaction)>(list[order[k + later].slot].get());
+		if (k + (long)soon < all) fetch<1>(list[order[k + soon].slot]->phys.get());
+		states[k] = stateOf(*list[order[k].slot]); // its place in the list, so far
 	}
+	for (long k = 0; k < all; ++k)
+		order[k].slot = int(k);
+	freeSlots.clear();
+	strewn   = 0;
 	areKnown = false;
 	areOwned = true;
 	costOfLook += steadySeconds() - begin;
@@ -198,7 +195,7 @@ bool SpaceContacts::notePotential(InteractionContainer& list)
 	potential.clear();
 	for (const auto& part : found)
 		potential.insert(potential.end(), part.potential.begin(), part.potential.end());
-	return real == (long)states.size();
+	return real == (long)order.size();
 }
 
 void SpaceContacts::change(
@@ -208,39 +205,68 @@ void SpaceContacts::change(
 	auto&                  list = *scene.interactions;
 	std::vector<Potential> left;
 	for (const std::size_t k : ended) {
-		const State& s = states[k];
+		const Place& place = order[k];
+		State&       s     = states[place.slot];
 		// held where another thread may have taken it out of the list
-		const auto I = holders.empty() ? list[s.interaction->linIx] : holders[k].interaction;
-		left.push_back({ I->linIx, s.low, s.high, s.kept });
+		const auto I = holders.empty() ? list[s.interaction->linIx] : holders[place.slot].interaction;
+		left.push_back({ I->linIx, place.low, place.high, s.kept });
 		end(I, list);
-		if (!holders.empty()) holders[k].letGo();
+		if (!holders.empty()) holders[place.slot].letGo();
+		s = {};
+		freeSlots.push_back(place.slot);
 	}
-	eraseAt(states, ended);
-	const bool held = !holders.empty();
-	if (held) eraseAt(holders, ended);
-	std::vector<State> added;
+	eraseAt(order, ended);
+	std::vector<Place> added;
 	for (const std::size_t k : begun) {
-		added.push_back(stateOf(*list[potential[k].place]));
-		keep(added.back());
+		const auto& p    = potential[k];
+		const auto& I    = list[p.place];
+		const bool  held = !holders.empty();
+		const int   slot = freeSlot();
+		states[slot]     = stateOf(*I);
+		if (held) holders[slot] = { I, I->geom, I->phys };
+		keep(states[slot]);
+		added.push_back({ p.low, p.high, slot });
 	}
 	eraseAt(potential, begun);
 	potential.insert(potential.end(), left.begin(), left.end());
-	if (added.empty()) return;
 	std::sort(added.begin(), added.end(), isBefore);
-	const auto isBehind = [&](size_t o, size_t a) { return isBefore(added[a], states[o]); };
-	if (held)
-		mergeInto(
-		        states.size(), added.size(), isBehind,
-		        [&](size_t a, size_t to) {
-			        states[to]    = added[a];
-			        const auto& I = list[added[a].interaction->linIx];
-			        holders[to]   = { I, I->geom, I->phys };
-		        },
-		        states, holders);
-	else
-		mergeInto(
-		        states.size(), added.size(), isBehind, [&](size_t a, size_t to) { states[to] = added[a]; },
-		        states);
+	mergeInto(
+	        order.size(), added.size(), [&](size_t o, size_t a) { return isBefore(added[a], order[o]); },
+	        [&](size_t a, size_t to) { order[to] = added[a]; }, order);
+	strewn += added.size();
+	if (strewn > order.size() / 20) repack();
+}
+
+int SpaceContacts::freeSlot()
+{
+	if (freeSlots.empty()) {
+		states.emplace_back();
+		if (!holders.empty()) holders.emplace_back();
+		return int(states.size()) - 1;
+	}
+	const int slot = freeSlots.back();
+	freeSlots.pop_back();
+	return slot;
+}
+
+/// Puts slots into the order of contacts: whoever goes through them meets neighbours in memory.
+void SpaceContacts::repack()
+{
+	const long count = (long)order.size();
+	const auto pack  = [&](auto& items) {
+                if (items.empty()) return;
+                std::remove_reference_t<decltype(items)> sorted(count);
+#pragma omp parallel for schedule(static) num_threads(threads)
+		for (long k = 0; k < count; ++k)
+			sorted[k] = std::move(items[order[k].slot]);
+		items.swap(sorted);
+	};
+	pack(states);
+	pack(holders);
+	for (long k = 0; k < count; ++k)
+		order[k].slot = int(k);
+	freeSlots.clear();
+	strewn = 0;
 }
 
 void SpaceContacts::end(const shared_ptr<Interaction>& interaction, InteractionContainer& list)
@@ -250,30 +276,31 @@ void SpaceContacts::end(const shared_ptr<Interaction>& interaction, InteractionC
 	list.requestErase(interaction);
 }
 
-void SpaceContacts::lookAgain(std::size_t k)
+void SpaceContacts::lookAgain(int slot)
 {
-	Interaction& I = *states[k].interaction;
-	if (I.phys.get() == states[k].phys && I.geom.get() == states[k].geom) return;
-	states[k] = stateOf(I);
+	Interaction& I = *states[slot].interaction;
+	if (I.phys.get() == states[slot].phys && I.geom.get() == states[slot].geom) return;
+	states[slot] = stateOf(I);
 	if (holders.empty()) return;
-	nscd::letGo(holders[k].geom);
-	nscd::letGo(holders[k].phys);
-	holders[k].geom = I.geom;
-	holders[k].phys = I.phys;
+	nscd::letGo(holders[slot].geom);
+	nscd::letGo(holders[slot].phys);
+	holders[slot].geom = I.geom;
+	holders[slot].phys = I.phys;
 }
 
 void SpaceContacts::show()
 {
 	if (!areOwned) return;
 	const double begin = steadySeconds();
-	const long   count = (long)states.size();
+	const long   count = (long)order.size();
 #pragma omp parallel for schedule(static) num_threads(threads)
 	for (long k = 0; k < count; ++k) {
-		if (k + (long)soon < count && states[k + soon].kept) {
-			fetch<partOfGeometry>(states[k + soon].geom);
-			fetch<sizeof(NscdSpacePhys)>(states[k + soon].phys);
+		if (k + (long)soon < count) {
+			const State& ahead = states[order[k + soon].slot];
+			fetch<partOfGeometry>(ahead.geom);
+			fetch<sizeof(NscdSpacePhys)>(ahead.phys);
 		}
-		const State& s = states[k];
+		const State& s = states[order[k].slot];
 		if (!s.kept) continue;
 		auto& geom            = *s.geom;
 		auto& phys            = *s.phys;
@@ -302,10 +329,10 @@ void SpaceContacts::hold()
 	const long count = (long)states.size();
 	holders.resize(count);
 #pragma omp parallel for schedule(static) num_threads(threads)
-	for (long k = 0; k < count; ++k) {
-		Interaction& I = *states[k].interaction;
-		holders[k]     = { boost::static_pointer_cast<Interaction>(I.shared_from_this()), I.geom, I.phys };
-	}
+	for (long k = 0; k < count; ++k)
+		if (Interaction* I = states[k].interaction)
+			holders[k] = { boost::static_pointer_cast<Interaction>(I->shared_from_this()), I->geom,
+				       I->phys };
 }
 
 void SpaceContacts::leaveAlone()

@@ -28,8 +28,7 @@ struct SpaceContactState {
 	Interaction*   interaction = nullptr;
 	ScGeom*        geom        = nullptr;
 	NscdSpacePhys* phys        = nullptr; // null where it has another
-	int            low = 0, high = 0; // ids of its bodies
-	int            i = 0, j = 0; // the same as bodies of a contact: the lower id first, or a wall before a sphere
+	int            i = 0, j = 0; // its bodies: the lower id first, or a wall before a sphere
 	bool           swapped = false; // i is the interaction's second body
 	bool           kept    = false; // in the arrays alone
 	bool           bonded  = false;
@@ -46,6 +45,10 @@ struct SpaceContactState {
 class SpaceContacts : public KeptContacts {
 public:
 	using State = SpaceContactState;
+	/// A contact's place in the order of (lower id, higher id), and in the array.
+	struct Place {
+		int low, high, slot;
+	};
 	/// An interaction that is not real, by its place in the list.
 	struct Potential {
 		int  place, low, high;
@@ -71,7 +74,7 @@ public:
 	       const std::function<void(State&)>& keep);
 
 	/// Where its interaction has another geometry or physics than it had, a contact is one of these from now on.
-	void lookAgain(std::size_t place);
+	void lookAgain(int slot);
 	/// Makes an interaction a potential one.
 	static void end(const shared_ptr<Interaction>& interaction, InteractionContainer& list);
 	/// Whether a contact of two spheres can be kept in the arrays alone: it has no bond, and nothing that the solver
@@ -86,7 +89,8 @@ public:
 	/// Writes reactions into the physics.
 	static void writeReactions(const State& state);
 
-	std::vector<State>     states;
+	std::vector<State>     states; // by slot
+	std::vector<Place>     order;
 	std::vector<Potential> potential;
 
 private:
@@ -112,11 +116,15 @@ private:
 	static Stamp stampOf(const Scene& scene);
 	bool         notePotential(InteractionContainer& list);
 	void         letAllGo();
+	int          freeSlot();
+	void         repack();
 
 	int                 threads = 1;
 	Stamp               seen; // when potential interactions were noted
 	bool                areKnown = false; // the potential ones
-	std::vector<Holder> holders; // by place in the order; none where nothing is held
+	std::vector<Holder> holders; // by slot; none where nothing is held
+	std::vector<int>    freeSlots;
+	size_t              strewn    = 0; // contacts that came since slots were last in their order
 	double              lastShown = 0, costOfLook = 0; // by a clock [s]
 };
 

@@ -7,6 +7,7 @@
 #include "../checks/Refusal.hpp"
 #include "../checks/SceneCheck.hpp"
 #include "../seam/Prefetch.hpp"
+#include "../seam/Resident.hpp"
 #include <algorithm>
 #include <contact/space/bond.hpp>
 #include <core/Scene.hpp>
@@ -35,8 +36,9 @@ namespace {
 	Real inverseIn(unsigned blocked, unsigned axis, Real value) { return blocked & axis ? 0 : 1 / value; }
 }
 
-bool isInSpace(const Scene& scene, const std::vector<BodyState>& bodies)
+bool isInSpace(const Scene& scene, const Resident& resident)
 {
+	const auto& bodies = resident.bodies;
 	for (const auto& engine : scene.engines)
 		if (!engine->dead
 		    && (dynamic_cast<const PlanarGridCollider*>(engine.get())
@@ -53,13 +55,12 @@ bool isInSpace(const Scene& scene, const std::vector<BodyState>& bodies)
 		const Vector3r g     = gravityOf(scene);
 		return empty && g[2] != 0 && std::isfinite(g[2]);
 	}
-	const auto isOfThePlane = [&](const BodyState& b) {
-		if (!b.present || b.radius > 0) return false;
-		const auto&  body  = (*scene.bodies)[&b - bodies.data()];
+	const auto isOfThePlane = [&](int id) {
+		const auto&  body  = (*scene.bodies)[id];
 		const Shape* shape = body ? body->shape.get() : nullptr;
 		return dynamic_cast<const Segment*>(shape) || dynamic_cast<const Arc*>(shape);
 	};
-	return std::none_of(bodies.begin(), bodies.end(), isOfThePlane);
+	return std::none_of(resident.shaped.begin(), resident.shaped.end(), isOfThePlane);
 }
 
 void SpaceSeam::gather(
@@ -213,9 +214,10 @@ void SpaceSeam::refuse(const Scene& scene, Interaction& I) const
 /// alone are read.
 void SpaceSeam::findContacts(const Scene& scene, const std::vector<BodyState>& all)
 {
-	auto&      states = kept->states;
-	const long count  = (long)states.size();
-	long       bad    = count; // the first one that cannot be taken, refused after the loop, which must not throw
+	auto&       states = kept->states;
+	const auto& order  = kept->order;
+	const long  count  = (long)order.size();
+	long        bad    = count; // the first one that cannot be taken, refused after the loop, which must not throw
 	uses.resize(count);
 	std::vector<std::vector<Left>> parts(threads); // by thread, each in order, since each has a stretch of them
 #pragma omp parallel num_threads(threads) reduction(min : bad)
@@ -223,17 +225,17 @@ void SpaceSeam::findContacts(const Scene& scene, const std::vector<BodyState>& a
 		std::vector<Left> out;
 #pragma omp for schedule(static)
 		for (long k = 0; k < count; ++k) {
-			if (k + (long)soon < count && !states[k + soon].kept) {
-				fetch<sizeof(ScGeom)>(states[k + soon].geom);
-				fetch<sizeof(NscdSpacePhys)>(states[k + soon].phys);
+			if (k + (long)soon < count && !states[order[k + soon].slot].kept) {
+				fetch<sizeof(ScGeom)>(states[order[k + soon].slot].geom);
+				fetch<sizeof(NscdSpacePhys)>(states[order[k + soon].slot].phys);
 			}
-			auto& s = states[k];
+			auto& s = states[order[k].slot];
 			uses[k] = useOf(s);
 			if (uses[k] == Use::Refused) bad = std::min(bad, k);
 			if (uses[k] != Use::Solved) continue;
 			if (!s.kept) SpaceContacts::read(s, all);
 			if (const auto open = staysOut(s)) {
-				out.push_back({ size_t(k), *open });
+				out.push_back({ order[k], *open });
 				forgetReactions(s);
 				uses[k] = Use::LeftOut;
 			}
@@ -241,13 +243,13 @@ void SpaceSeam::findContacts(const Scene& scene, const std::vector<BodyState>& a
 		nonsmooth::neighbours::partOfThread(parts).swap(out);
 	}
 	if (bad < count) {
-		Interaction& refused = *states[bad].interaction;
+		Interaction& refused = *states[order[bad].slot].interaction;
 		kept->show();
 		refuse(scene, refused);
 	}
 	solved.clear();
 	for (long k = 0; k < count; ++k)
-		if (uses[k] == Use::Solved) solved.push_back(k);
+		if (uses[k] == Use::Solved) solved.push_back(order[k]);
 	left.clear();
 	for (const auto& part : parts)
 		left.insert(left.end(), part.begin(), part.end());
@@ -307,16 +309,12 @@ void SpaceSeam::gatherContact(size_t k)
 		                h * s.twistingTorque * c.n + acrossNormal(c.n, rolling) };
 }
 
-Vector2i SpaceSeam::idsOf(size_t contact) const
-{
-	const auto& s = stateOf(contact);
-	return Vector2i(s.low, s.high);
-}
+Vector2i SpaceSeam::idsOf(size_t contact) const { return Vector2i(solved[contact].low, solved[contact].high); }
 
 int SpaceSeam::overlapsOf(Real least) const
 {
-	return int(std::count_if(solved.begin(), solved.end(), [&](size_t place) {
-		const auto& s = kept->states[place];
+	return int(std::count_if(solved.begin(), solved.end(), [&](const auto& place) {
+		const auto& s = kept->states[place.slot];
 		return -s.gap >= least * s.length;
 	}));
 }

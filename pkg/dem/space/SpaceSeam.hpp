@@ -51,9 +51,9 @@ private:
 		nonsmooth::contact::space::Twist before,
 		        external; // velocity at the step's beginning; forces and torques of other engines
 	};
-	/// A contact that is left out of the solve, by its place in the order, with its bodies, normal, levers and length.
+	/// A contact that is left out of the solve, with its bodies, normal, levers and length.
 	struct Left {
-		size_t                             place;
+		SpaceContacts::Place               place;
 		nonsmooth::contact::space::Contact contact;
 	};
 	/// What a part of the contacts, or of the bodies, adds up to.
@@ -67,8 +67,8 @@ private:
 	Use                      useOf(const SpaceContactState& state) const;
 	[[noreturn]] void        refuse(const Scene& scene, Interaction& interaction) const;
 	void                     findContacts(const Scene& scene, const std::vector<BodyState>& states);
-	const SpaceContactState& stateOf(size_t contact) const { return kept->states[solved[contact]]; }
-	SpaceContactState&       stateOf(size_t contact) { return kept->states[solved[contact]]; }
+	const SpaceContactState& stateOf(size_t contact) const { return kept->states[solved[contact].slot]; }
+	SpaceContactState&       stateOf(size_t contact) { return kept->states[solved[contact].slot]; }
 	void setFrame(const SpaceContactState& state, nonsmooth::contact::space::Contact& result) const;
 	std::optional<nonsmooth::contact::space::Contact> staysOut(const SpaceContactState& state) const;
 	static void                                       forgetReactions(SpaceContactState& state);
@@ -89,7 +89,7 @@ private:
 	std::vector<StepBody>                                 bodies; // by id
 	SpaceContacts*                                        kept = nullptr; // of the step
 	std::vector<Use>                                      uses; // by place in the order of contacts
-	std::vector<size_t>                                   solved; // places in it, by contact of the problem
+	std::vector<SpaceContacts::Place>                     solved; // by contact of the problem
 	std::vector<Left>                                     left; // in it
 	int                                                   recalls = 0; // of this step
 	std::vector<nonsmooth::contact::space::PositionError> errors;
@@ -99,6 +99,6 @@ private:
 
 /// Whether the scene's bodies move in space: one is free out of the x-y plane, and no engine or shape says that the
 /// plane is meant.
-bool isInSpace(const Scene& scene, const std::vector<BodyState>& bodies);
+bool isInSpace(const Scene& scene, const Resident& resident);
 
 } // namespace yade::nscd

@@ -36,7 +36,7 @@ size_t SpaceSeam::recall()
 	const auto gapAfter = [this](size_t k) {
 		const auto& c = left[k].contact;
 		const auto& v = problem.velocities;
-		return kept->states[left[k].place].gap + relaxation.step * relativeVelocity(c, v[c.i], v[c.j]).n;
+		return kept->states[left[k].place.slot].gap + relaxation.step * relativeVelocity(c, v[c.i], v[c.j]).n;
 	};
 	const auto taken = toBeTakenIn(left.size(), recalls, gapAfter, [this](size_t k) {
 		return left[k].contact.length;
@@ -48,8 +48,10 @@ size_t SpaceSeam::recall()
 /// Takes contacts that were left out into the solve, into the order of ids.
 void SpaceSeam::takeIn(const std::vector<size_t>& taken)
 {
+	const auto ids = [](const SpaceContacts::Place& p) { return std::make_pair(p.low, p.high); };
 	mergeInto(
-	        solved.size(), taken.size(), [&](size_t o, size_t a) { return solved[o] > left[taken[a]].place; },
+	        solved.size(), taken.size(),
+	        [&](size_t o, size_t a) { return ids(solved[o]) > ids(left[taken[a]].place); },
 	        [&](size_t a, size_t to) {
 		        solved[to] = left[taken[a]].place;
 		        gatherContact(to);

@@ -12,7 +12,7 @@ MUTANTS = (
            "test_refusals.py::test_lists_of_engines_that_would_go_wrong"),
     mutant("check-second", "pkg/dem/checks/ContactCheck.cpp", "std::find_if(first + 1, bodies.end(), isDisk)", "std::find_if(first + 2, bodies.end(), isDisk)", "two disks alone need no functor",
            "test_refusals.py::test_two_disks_need_a_functor"),
-    mutant("space-from-lower", "pkg/dem/space/SpaceSeam.cpp", "bodies[id1].radius > 0 && bodies[id2].radius > 0", "bodies[id1].radius > 0 && bodies[id2].radius < 0", "contacts of spheres run from the higher id", "test_space.py::test_the_problem_of_a_step_is_written_and_solved_again"),
+    mutant("space-from-lower", "pkg/dem/space/SpaceContacts.cpp", "ball1 && ball2 ? id1 > id2 : ball1", "ball1", "contacts of spheres run from the higher id", "test_space.py::test_the_problem_of_a_step_is_written_and_solved_again"),
     mutant("space-breaks", "pkg/dem/space/SpaceSeamScatter.cpp", "broken.insert(broken.end(), part.breaks.begin(), part.breaks.end());", "broken = part.breaks;", "breaks of all but the last part of the contacts are forgotten", "test_space.py::test_sums_over_many_contacts_are_the_same_on_any_number_of_threads"),
     mutant("space-parts", "pkg/dem/space/SpaceSeamScatter.cpp", "scatterContact(k, parts[part])", "scatterContact(k, parts[part % threads])", "sums in space depend on the number of threads", "test_space.py::test_sums_over_many_contacts_are_the_same_on_any_number_of_threads"),
     mutant("space-held", "pkg/dem/space/SpaceSeamScatter.cpp", "rows.n < 0 && held", "held", "a bond that is pressed loses nothing", "test_space.py::test_a_bonded_tower_that_lands_loses_all_it_had_by_the_impact"),

@@ -4,6 +4,7 @@ from mutant import mutant
 SEAM, SCATTER, CORRECT, ENGINE = "pkg/dem/seam/ContactSeam.cpp", "pkg/dem/seam/ContactSeamScatter.cpp", "pkg/dem/seam/ContactSeamCorrect.cpp", "pkg/dem/engines/ContactDynamicsEngine.cpp"
 REQUESTS, WARNINGS = "pkg/dem/engines/ContactDynamicsRequests.cpp", "pkg/dem/engines/ContactDynamicsWarnings.cpp"
 STEPPER, WATER, NEWTON = "pkg/dem/engines/NonsmoothTimeStepper.cpp", "pkg/dem/engines/PorePressureEngine.cpp", "pkg/dem/engines/PlanarNewtonIntegrator.cpp"
+LEAPFROG, SPATIAL = "pkg/dem/engines/Leapfrog.hpp", "pkg/dem/engines/SpatialNewtonIntegrator.cpp"
 TO_PLANE, GIVEN = "pkg/dem/seam/PlaneMotion.hpp", "pkg/dem/seam/ContactSeamGiven.cpp"
 RESIDENT, SHOW, MAKE = "pkg/dem/seam/Resident.cpp", "pkg/dem/seam/ResidentShow.cpp", "pkg/dem/seam/ResidentMake.cpp"
 COME, BARE_BONDS = "test_bare_contacts.py::test_contacts_that_come_and_go_are_the_same_once_they_are_seen", "test_bare_contacts.py::test_bonds_of_contacts_that_nobody_has_seen"
@@ -210,10 +211,12 @@ MUTANTS = (
     mutant("gravity-first", GRAVITY, "solver->growGravity(*newton, scene.time);", "solver->growGravity(*newton, scene.time - scene.dt);",
            "gravity lags a step behind", "test_gravity.py::test_it_grows_in_proportion_and_is_then_left_alone"),
     # ---- integrator, collider, loop
-    mutant("newton-turn", NEWTON, "AngleAxisr(speed * dt, s.angVel / speed)", "AngleAxisr(-speed * dt, s.angVel / speed)", "bodies in space turn the other way than their spin",
+    mutant("newton-turn", LEAPFROG, "AngleAxisr(speed * dt, s.angVel / speed)", "AngleAxisr(-speed * dt, s.angVel / speed)", "bodies in space turn the other way than their spin",
            "test_engine.py::test_own_integrator_has_the_bits_of_yades_out_of_the_plane_too"),
-    mutant("newton-torque", NEWTON, "torque[i] / s.inertia[i]", "torque[i] / s.mass", "a torque has the mass in the place of the inertia",
+    mutant("newton-torque", LEAPFROG, "torque[i] / s.inertia[i]", "torque[i] / s.mass", "a torque has the mass in the place of the inertia",
            "test_engine.py::test_own_integrator_has_the_bits_of_yades_out_of_the_plane_too"),
+    mutant("spatial-plain", SPATIAL, "nscd::isMoreThanLeapfrog(*this)", "false", "damping is forgotten in space", "test_space_view.py::test_the_integrator_has_the_bits_of_yades"),
+    mutant("spatial-aspherical", SPATIAL, "exactAsphericalRot && b->isAspherical()", "false", "a body that is no sphere turns as one", "test_space_view.py::test_the_integrator_refuses_what_it_cannot_turn"),
     mutant("newton-tilted", TO_PLANE, "s.ori.x() == 0", "true", "a disk that was turned out of the plane counts as one in it",
            "test_engine.py::test_own_integrator_has_the_bits_of_yades_out_of_the_plane_too"),
     mutant("newton-leaves", TO_PLANE, "(s.blockedDOFs & out) == out", "true", "a body that may leave the plane does not",
@@ -372,7 +375,7 @@ MUTANTS = (
            "test_given_pairs.py::test_bodies_that_are_driven_into_each_other_are_told_of"),
     mutant("collider-mended", "pkg/dem/engines/PlanarGridColliderSearch.cpp", "isThere(disks[id])", "regions.of(int(id)) >= 0", "a disk whose place was no number has no contacts once that is mended",
            "test_collider.py::test_a_place_that_was_no_number_and_is_mended_has_contacts_again"),
-    mutant("newton-margin", "pkg/dem/engines/Leapfrog.hpp", "farthest < bound.sweepLength", "true", "YADE's collider is not told that a body has left its box",
+    mutant("newton-margin", LEAPFROG, "farthest < bound.sweepLength", "true", "YADE's collider is not told that a body has left its box",
            "test_collider.py::test_every_pair_of_colliders_and_loops_has_the_same_bits"),
     mutant("given-far-size", "pkg/dem/seam/GivenMotion.cpp", "farthest * smallest", "farthest / smallest", "how far a body is placed anew is no length",
            "test_given_motion.py::test_jumps_and_moves_after_long_are_places_and_are_told_of"),

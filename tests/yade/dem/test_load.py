@@ -156,6 +156,7 @@ LOOKED_AT = {
     "core/TimeStepper": ["GlobalStiffnessTimeStepper"],
     "pkg/common/Bo1_Aabb": ["Bo1_Sphere_Aabb"],
     "pkg/common/Box": ["Box"],
+    "pkg/common/InsertionSortCollider": ["InsertionSortCollider"],
     "pkg/common/Collider": ["InsertionSortCollider"],
     "pkg/common/ElastMat": ["FrictMat"],
     "pkg/common/Facet": ["Facet"],
