@@ -35,7 +35,7 @@ MUTANTS = (
     mutant("spheres-bulk", HOPPER, "part**2 * (3 - 2 * part)", "part", "a sphere that a plane cuts has the volume of a cylinder", SCENES + "::test_the_bulk_density_of_one_sphere_by_its_cap"),
     mutant("spheres-turn", DRUM, "math.sqrt(self.froude * self.gravity / self.radius)", "math.sqrt(self.froude * self.gravity / self.depth() / 2)", "a drum turns more slowly than its Froude number says",
            SCENES + "::test_a_drum_takes_its_mean_over_the_second_half"),
-    mutant("spheres-endless", GRAINS, "if steps <= MOST_STEPS:", "if True:", "a course without end is begun", SCENES + "::test_a_course_without_end_is_refused_with_what_would_do"),
+    mutant("spheres-endless", PY + "world/long_courses.py", "if steps <= MOST_STEPS:", "if True:", "a course without end is begun", SCENES + "::test_a_course_without_end_is_refused_with_what_would_do"),
     mutant("spheres-edgeless", PY + "studies/spheres/column.py", "edge / self.radius - 1 if edge else None", "edge / self.radius - 1", "a mass without an edge has run back to the axis",
            SCENES + "::test_a_mass_that_is_nowhere_half_a_diameter_high_has_no_run_out"),
     # ---- triaxial tests

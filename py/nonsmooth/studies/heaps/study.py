@@ -11,7 +11,7 @@ from ... import records
 from ...running import kept_runs, side_by_side
 from ...system import checks, keys
 from ...system.whole_files import remove, whole
-from ...world import worlds
+from ...world import long_courses, worlds
 from ...world.choice import check_choice
 from .column import GranularColumn
 from .grains import HeapError, hard
@@ -123,12 +123,16 @@ def planned(name, folder, heap, world, duration=DURATION) -> side_by_side.Run:
     """A run as side_by_side.run takes it, checked: ``name``: for messages; ``world``: arguments of :func:`world_of`, a
     dictionary; ``duration``: see course.run.
 
-    Raises what :func:`world_of` raises, and HeapError for what is no heap and for a duration that is no number above 0.
+    Raises what :func:`world_of` raises, and HeapError for what is no heap, for a duration that is no number above 0 and
+    for a course of more steps than anybody waits for.
     """
     kind = next((kind for kind, made in KINDS.items() if type(heap) is made), None)
     if kind is None:
         raise HeapError(f"{heap!r}: is no heap; give a Column or a Pile")
     checks.number("duration", duration, HeapError, "give a number above 0, in units of T = √(H/g)", above=0)
+    made, unit = world_of(heap, **world), heap.fall_time()
+    step = made.step_for([heap.material()])
+    long_courses.check(duration * unit, DURATION * unit, duration, made, step, heap.time_step(1.0), HeapError)
     return side_by_side.Run(
         name,
         Path(folder),

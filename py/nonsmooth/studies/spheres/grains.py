@@ -10,6 +10,7 @@ import numpy as np
 from ...errors import UserError
 from ...model.section import units
 from ...system import checks, keys
+from ...world import long_courses
 from ...world import sphere_worlds as worlds
 from ...world.choice import check_choice
 from ..heaps.grains import RANGES
@@ -20,7 +21,6 @@ PATH_PER_STEP = 0.1  # mean diameters, at the speed of a free fall from the top,
 TOLERANCE = 1e-4  # of the solver's residual, relative
 MOST_OVERLAP = 0.02  # diameters, largest overlap under its load that soft contacts may have
 MOST_SPHERES = 200_000
-MOST_STEPS = 1e9  # of a run, days of work even for a few spheres
 _SOFT = tuple(one.name for one in fields(worlds.SoftSpheres) if one.name != "diameter")
 
 
@@ -276,20 +276,8 @@ def check_run(scene, world, duration=None):
     """
     scene.check_room()
     step = world.step_for([scene.material()])
-    steps = scene.lasts(duration) / step if step > 0 else math.inf
-    if steps <= MOST_STEPS:
-        return
-    over = 1.05 * steps / MOST_STEPS  # 5 %, so that what is given with two digits is taken
-    if duration is not None and scene.lasts(duration) > 1.001 * scene.lasts():
-        told, remedy = f"duration {duration:g} T", f"{duration / over:.2g} or less"
-    elif world.name == "hard":
-        path = world.time_step / scene.time_step(1.0)
-        told, remedy = f"path {path:g}", f"{path * over:.2g} or more"
-    elif world.step_share * over <= worlds.SoftSpheres.step_share:
-        told, remedy = f"step_share {world.step_share:g}", f"{world.step_share * over:.2g} or more"
-    else:
-        told, remedy = f"stiffness {world.stiffness:g} Pa", f"{world.stiffness / over**2:.2g} or less"
-    raise SpheresError(f"{told}: that is {steps:.1e} steps to the end of the course; give {remedy}")
+    lasts, usual = scene.lasts(duration), scene.lasts()
+    long_courses.check(lasts, usual, duration, world, step, scene.time_step(1.0), SpheresError)
 
 
 def key_of(scene, world, duration):

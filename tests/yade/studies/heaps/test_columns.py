@@ -235,6 +235,34 @@ def test_wrong_numerics_are_named_before_anything_is_computed(world, said):
         study.world_of(column.Column(**SMALL), **world)
 
 
+@pytest.mark.parametrize(
+    "world, duration, key, usual",
+    (
+        (dict(path=1e-9), study.DURATION, "path", 0.1),
+        (dict(name="soft", stiffness=1e20), study.DURATION, "stiffness", 1e7),
+        (dict(name="soft", stiffness=1e9, step_share=1e-7), study.DURATION, "step_share", 0.5),
+        (dict(), 1e9, "duration", study.DURATION),
+    ),
+)
+def test_a_course_without_end_is_refused_with_what_would_do(world, duration, key, usual):
+    heap = column.GranularColumn(**SMALL)
+    said = f"^{key} .*: that is .* steps to the end of the course; give "
+    with pytest.raises(grains.HeapError, match=said) as told:
+        study.planned("one", "/tmp/none", heap, world, duration)
+    # towards the usual value, and no further than need be: what is named is taken, and half of the way is not
+    least = float(str(told.value).split("give ")[1].split()[0])
+    further = least * (2 if usual < least else 0.5)
+
+    def plan(value):
+        if key == "duration":
+            return study.planned("one", "/tmp/none", heap, world, value)
+        return study.planned("one", "/tmp/none", heap, {**world, key: value}, duration)
+
+    assert plan(least)
+    with pytest.raises(grains.HeapError, match=f"^{key}"):
+        plan(further)
+
+
 def test_springs_that_would_be_crushed_are_refused():
     c = column.Column(**SMALL)
     with pytest.raises(grains.HeapError, match=r"stiffness 1e\+06 Pa: .* give .* or more"):
