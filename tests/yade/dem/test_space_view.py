@@ -33,13 +33,13 @@ def material(**others):
 
 
 def heap(*after):
-    """Spheres fall into a corner of a wall, a facet and a box that turns; they roll, and some bounce."""
+    """Spheres, of which some overlap, fall into a corner of a wall, a facet and a box that turns; they roll and bounce."""
     stuff = material(rollingFriction=0.05, twistingFriction=0.05, residualTensileStrength=300, restitution=0.2)
     O.bodies.append(utils.wall((0, 0, 0), 2, material=stuff))
     O.bodies.append(utils.facet([(0, -1, -1), (0, 5, -1), (0, 2, 5)], material=stuff))
     paddle = O.bodies.append(utils.box((2.5, 1, 0.4), (0.1, 1, 0.4), fixed=True, material=stuff))
     for k in range(24):
-        at = 0.36 + 0.7 * (k % 3), 0.1 + 0.69 * (k // 3 % 3), 0.4 + 0.72 * (k // 9) + 0.01 * k
+        at = 0.36 + 0.7 * (k % 3), 0.1 + 0.67 * (k // 3 % 3), 0.4 + 0.72 * (k // 9) + 0.01 * k
         O.bodies.append(utils.sphere(at, 0.33 + 0.0005 * k, material=stuff))
         O.bodies[-1].state.vel = (0.3 - 0.05 * (k % 7), 0.1, -0.5)
     turns = RotationEngine(
@@ -156,6 +156,60 @@ def test_a_friction_that_is_written_during_a_run_in_the_background_acts():
     O.pause()
     O.wait()
     assert top.state.vel[0] > 1e-2
+
+
+def two_balls(distance, speed):
+    """One that flies to another, or from it, on the x axis."""
+    stuff = material()
+    for k in range(2):
+        O.bodies.append(utils.sphere((k * distance, 0, 0), 0.5, material=stuff))
+    O.bodies[0].state.vel = (speed, 0, 0)
+    O.engines = space.engines(gravity=(0, 0, 0), tolerance=1e-10)
+    O.dt = 1e-3
+
+
+def test_pairs_that_the_collider_finds_become_contacts_unseen():
+    two_balls(6, 50)
+    engine().advance(140, view=False)
+    engine().view()
+    assert O.bodies[1].state.vel[0] == pytest.approx(25, rel=1e-6)  # half of the momentum, as nothing bounces
+
+
+def test_contacts_that_open_beyond_the_reach_end_unseen():
+    two_balls(1.0, -20)
+    O.step()
+    assert O.interactions[0, 1].isReal
+    engine().advance(20, view=False)
+    engine().view()
+    assert not any(i.isReal for i in O.interactions)
+
+
+def test_a_force_that_is_written_unseen_is_refused_once_it_is_looked_at():
+    two_balls(0.999, 0)
+    engine().advance(3, view=False)
+    O.interactions[0, 1].phys.normalForce = (1, 0, 0)
+    with pytest.raises(RuntimeError, match="#0.*#1.*normalForce"):
+        for _ in range(3):
+            O.step()
+
+
+def test_a_fixed_ball_that_is_let_go_during_a_run_in_the_background_is_borne():
+    stuff = material()
+    O.bodies.append(utils.wall((0, 0, 0), 2, material=stuff))
+    ball = O.bodies[O.bodies.append(utils.sphere((0, 0, 0.5), 0.5, fixed=True, material=stuff))]
+    O.bodies.append(utils.sphere((3, 0, 0.5), 0.5, material=stuff))
+    O.engines = space.engines(tolerance=1e-9)
+    O.dt = 1e-4
+    O.run()
+    time.sleep(0.02)
+    ball.state.blockedDOFs = ""
+    begin = O.iter
+    while O.running and O.iter < begin + 5000:
+        time.sleep(0.01)
+    O.pause()
+    O.wait()
+    # for a step or two, in which its contact becomes one in space, it falls
+    assert abs(ball.state.pos[2] - 0.5) < 1e-6 and type(O.interactions[0, 1].phys) is NscdSpacePhys
 
 
 @pytest.mark.parametrize("loop", [None, InteractionLoop])
