@@ -526,10 +526,7 @@ def another_scene(dice):
     """A scene of its own in between, with bodies of the same ids."""
     O.switchScene()
     O.resetThisScene()
-    stuff = NscdMat(density=2500)
-    O.materials.append(stuff)
-    O.bodies.append([scene.disk((k, 0), 0.5, stuff) for k in range(3)])
-    O.engines = scene.engines(gravity=(0, -1, 0))
+    present().three_bodies()
     O.dt = 1e-3
     O.step()
     O.switchScene()
@@ -670,12 +667,17 @@ class Plane:
     """What programs are made of: disks between segments."""
 
     kinds = KINDS
-    present = None  # of the program that runs
     materials, populate, own_engines = staticmethod(materials), staticmethod(populate), staticmethod(own_engines)
 
     @staticmethod
     def body(dice):
         return a_disk(dice, (dice.uniform(1.0, 5.0), 6.0 + dice.uniform(0, 1.5)))
+
+    @staticmethod
+    def three_bodies():
+        O.materials.append(NscdMat(density=2500))
+        O.bodies.append([scene.disk((k, 0), 0.5, O.materials[0]) for k in range(3)])
+        O.engines = scene.engines(gravity=(0, -1, 0))
 
     @staticmethod
     def engines(dice):
@@ -687,8 +689,11 @@ class Plane:
         return ()
 
 
+_running = [Plane]  # the world of the program that runs is the last one
+
+
 def present():
-    return Plane.present
+    return _running[-1]
 
 
 @dataclass
@@ -726,7 +731,6 @@ class Program:
     def build(self, way):
         O.reset()
         O.trackEnergy = False
-        Plane.present = self.world
         dice = random.Random(self.number)
         self.world.materials(dice)
         self.world.populate(dice)
@@ -751,6 +755,13 @@ class Program:
 
     def run(self, way, told=lambda text: None):
         """What there is at each change between steps, and in the end."""
+        _running.append(self.world)
+        try:
+            return self._run(way, told)
+        finally:
+            _running.pop()
+
+    def _run(self, way, told):
         self.build(way)
         made, rows = 0, []
         for e in [e for e in self.events if not e.within] + [None]:

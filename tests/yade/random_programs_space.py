@@ -12,7 +12,6 @@ from yade import O, utils
 from yade.minieigenHP import Quaternion, Vector3
 from yade.nonsmooth.world import space
 from yade.wrapper import (
-    ForceEngine,
     InsertionSortCollider,
     InteractionLoop,
     Ip2_NscdMat_NscdMat_NscdPhys,
@@ -28,7 +27,7 @@ SHARED = (
     "heavier grown let_go appended erased replaced put_back parted cleared bonded bonded_unseen unbonded "
     "bonds_set strengths_set friction_written forces_reset material_changed strengths_updated material_exchanged "
     "step_changed settings_changed reloaded saved time_reset energies_tracked forgotten refused refused_body raised "
-    "redirection"
+    "redirection engine_added another_scene"
 ).split()
 KINDS = {name: plane.KINDS[name] for name in SHARED}
 
@@ -134,29 +133,6 @@ def engines_exchanged(dice):
     O.engines = new
 
 
-@kind("all", within=False)
-def engine_added(dice):
-    """An engine that looks at no contact, or one that might look at anything; taken out again where it is there."""
-    e = one(ForceEngine)
-    if e:
-        O.engines = [k for k in O.engines if not isinstance(k, ForceEngine)]
-    else:
-        O.engines = O.engines[:2] + [ForceEngine(force=(1.0, 0, 0), ids=[])] + O.engines[2:]
-
-
-@kind("none", within=False)
-def another_scene(dice):
-    """A scene of its own in between, with bodies of the same ids."""
-    O.switchScene()
-    O.resetThisScene()
-    O.materials.append(NscdMat(density=2500))
-    O.bodies.append([utils.sphere((k, 0, 0.1 * k), 0.5) for k in range(3)])
-    O.engines = space.engines(gravity=(0, 0, -1))
-    O.dt = 1e-3
-    O.step()
-    O.switchScene()
-
-
 class Space:
     """What programs are made of: spheres."""
 
@@ -195,6 +171,12 @@ class Space:
         body = utils.sphere(at, dice.uniform(0.2, 0.4), material=O.materials[0])
         body.state.vel = vector(dice, 1)
         return body
+
+    @staticmethod
+    def three_bodies():
+        O.materials.append(NscdMat(density=2500))
+        O.bodies.append([utils.sphere((k, 0, 0.1 * k), 0.5) for k in range(3)])
+        O.engines = space.engines(gravity=(0, 0, -1))
 
     @staticmethod
     def engines(dice):

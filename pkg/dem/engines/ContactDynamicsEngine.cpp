@@ -31,7 +31,9 @@ void ContactDynamicsEngine::action()
 	validate();
 	const auto gravity = nscd::gravityOf(*scene);
 	if (nscd::isInSpace(*scene, resident)) {
-		resident.show({ "the step in space", false, true, true, false });
+		nscd::Resident::Look look { "the step in space" };
+		look.inSpace = false; // contacts are taken from where they are
+		resident.show(look);
 		stepInSpace(resident, timer, gravity, threads);
 		turn.end();
 		return;

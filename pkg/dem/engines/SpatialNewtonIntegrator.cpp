@@ -1,5 +1,6 @@
 #include "SpatialNewtonIntegrator.hpp"
 #include "../checks/YadeFeatures.hpp"
+#include "../seam/EngineRoles.hpp"
 #include "../seam/Prefetch.hpp"
 #include "../seam/StageClock.hpp"
 #include "Leapfrog.hpp"
@@ -8,6 +9,8 @@
 namespace yade {
 
 YADE_PLUGIN((SpatialNewtonIntegrator));
+[[maybe_unused]] static const bool spatialNewtonIntegratorRole = nscd::giveRole(
+        typeid(SpatialNewtonIntegrator), nscd::EngineRole::MovesBodies);
 
 void SpatialNewtonIntegrator::action()
 {

@@ -192,8 +192,11 @@ long advance(const py::object& steps, const py::object& until, const py::object&
 	if (count == 0) return 0;
 	if (const auto* first = whoLooksFirst(
 	            *scene)) // engines may have been exchanged since an advance() showed nothing
-		Resident::of(*scene)->show(
-		        { named(*first), false, true, true, whoLooksFirst(*scene, LooksAt::Contacts) != nullptr });
+	{
+		Resident::Look look { named(*first) };
+		look.inSpace = whoLooksFirst(*scene, LooksAt::Contacts) != nullptr;
+		Resident::of(*scene)->show(look);
+	}
 	const Entered entered(*scene, count, end, !some);
 	const struct Ending {
 		~Ending() { endKept(); }

@@ -36,20 +36,19 @@ namespace {
 	/// contact has. Of these classes themselves.
 	bool isBlindToContacts(const Engine& engine)
 	{
-		static const std::set<string> all { "InsertionSortCollider",
-			                            "NewtonIntegrator",
-			                            "RotationEngine",
-			                            "TranslationEngine",
-			                            "HelixEngine",
-			                            "InterpolatingHelixEngine",
-			                            "HarmonicMotionEngine",
-			                            "HarmonicRotationEngine",
-			                            "CombinedKinematicEngine",
-			                            "ServoPIDController",
-			                            "ForceEngine",
-			                            "TorqueEngine",
-			                            "SpatialNewtonIntegrator" };
-		return all.count(engine.getClassName()) > 0;
+		static const std::set<string> ofYade { "InsertionSortCollider",
+			                               "NewtonIntegrator",
+			                               "RotationEngine",
+			                               "TranslationEngine",
+			                               "HelixEngine",
+			                               "InterpolatingHelixEngine",
+			                               "HarmonicMotionEngine",
+			                               "HarmonicRotationEngine",
+			                               "CombinedKinematicEngine",
+			                               "ServoPIDController",
+			                               "ForceEngine",
+			                               "TorqueEngine" };
+		return roleOf(engine) == EngineRole::MovesBodies || ofYade.count(engine.getClassName()) > 0;
 	}
 
 	/// An engine's place in the list; the end where it has none, outside a step since somebody called it by hand,

@@ -11,6 +11,7 @@ enum class EngineRole {
 	Stranger, // of YADE or of a user: may look at everything, and change it
 	TakesTurns, // takes what others have changed, and shows what it did (seam/Resident.hpp)
 	Blind, // reads and writes neither bodies nor interactions
+	MovesBodies, // looks at bodies, and neither reads nor writes what a contact has
 	Runner, // runs Python
 };
 

@@ -1,6 +1,8 @@
 // Contacts in arrays of their own beside those of Resident (space/SpaceContacts.hpp), which are shown with them.
 #pragma once
 
+#include "LookClock.hpp"
+
 namespace yade::nscd {
 
 class KeptContacts {
@@ -15,12 +17,12 @@ public:
 	virtual void hold() = 0;
 	/// Leaves the arrays right while a script goes on, which may end contacts: the next step looks which are there.
 	virtual void leaveAlone() = 0;
-	/// Whether it is time for a look by others who may look at any time: `least` [s] and `share` times what a look
-	/// costs have passed since the last one.
-	virtual bool isDue(double least, double share) const = 0;
+	/// Whether it is time for a look by others who may look at any time, see LookClock.
+	bool isDue(bool wanted) const { return looks.isDue(wanted); }
 
 protected:
-	bool areOwned = false;
+	bool      areOwned = false;
+	LookClock looks;
 };
 
 } // namespace yade::nscd

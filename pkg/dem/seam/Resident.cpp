@@ -4,7 +4,6 @@
 #include "Audience.hpp"
 #include "Prefetch.hpp"
 #include <map>
-#include <neighbours/bucket_sort.hpp>
 #include <neighbours/thread_part.hpp>
 
 namespace yade::nscd {
@@ -57,7 +56,7 @@ void Resident::takeBodies(Scene& scene)
 	for (size_t id = 0; id < asShown.size(); ++id)
 		asShown[id] = { bodies[id].motion, (*scene.bodies)[id] };
 	bodiesOwned = true;
-	costOfLook += steadySeconds() - begin;
+	looks.takeAgain(begin);
 }
 
 void Resident::takeContacts(Scene& scene)
@@ -82,12 +81,7 @@ void Resident::takeContacts(Scene& scene)
 			if (found[k].geom && low >= 0 && high < size) take(low, Place { low, high, int(k) });
 		}
 	};
-	nonsmooth::neighbours::sortIntoBuckets(bodies.size(), each, bucket, order);
-#pragma omp parallel for schedule(static) num_threads(threads)
-	for (long k = 0; k < (long)bodies.size(); ++k)
-		std::sort(order.begin() + bucket[k], order.begin() + bucket[k + 1], [](const Place& a, const Place& b) {
-			return a.high < b.high;
-		});
+	orderByIds(bodies.size(), each, threads, bucket, order);
 	const long count = (long)order.size();
 	states.resize(count);
 	bonds.resize(count);
@@ -121,7 +115,7 @@ void Resident::takeContacts(Scene& scene)
 	for (long k = 0; unreal > 0 && k < all; ++k)
 		if (!found[k].geom) addPotential(list[k]);
 	contactsOwned = true;
-	costOfLook += steadySeconds() - begin;
+	looks.takeAgain(begin);
 }
 
 void Resident::readSlot(const Found& found, int slot)
@@ -176,7 +170,7 @@ bool Resident::takeKnown(Scene& scene)
 	}
 	if (other) return false;
 	contactsOwned = true;
-	costOfLook += steadySeconds() - begin;
+	looks.takeAgain(begin);
 	return true;
 }
 
@@ -190,9 +184,7 @@ void Resident::hold()
 	holders.resize(count);
 #pragma omp parallel for schedule(static) num_threads(threads)
 	for (size_t k = 0; k < states.size(); ++k)
-		if (Interaction* i = states[k].interaction)
-			holders[states[k].number] = { boost::static_pointer_cast<Interaction>(i->shared_from_this()),
-				                      i->geom, i->phys };
+		if (Interaction* i = states[k].interaction) holders[states[k].number] = Holder::of(*i);
 }
 
 void Resident::hold(ContactState& state, const shared_ptr<Interaction>& interaction)
@@ -299,31 +291,18 @@ void Resident::merge(InteractionContainer& list)
 	come.clear();
 	gone.clear();
 	order.swap(merged);
-	if (strewn > order.size() / 20) repack();
+	if (areStrewn(strewn, order)) repack();
 }
 
 /// Puts slots into the order of contacts, which those that come and go leave: whoever goes through them in order then
 /// meets neighbours in memory.
 void Resident::repack()
 {
-	const long count = (long)order.size();
-	const auto pack  = [&](auto& items) {
-                std::remove_reference_t<decltype(items)> sorted(count);
-#pragma omp parallel for schedule(static) num_threads(threads)
-		for (long k = 0; k < count; ++k)
-			sorted[k] = std::move(items[order[k].slot]);
-		items.swap(sorted);
-	};
-	pack(states);
-	pack(bonds);
-	pack(rests);
-	pack(surelySolved);
-	for (long k = 0; k < count; ++k)
-		order[k].slot = int(k);
+	packBySlot(order, threads, states, bonds, rests, surelySolved);
 	freeSlots.clear();
 	strewn = 0;
 	bareSlots.clear();
-	for (long k = 0; bare > 0 && k < count; ++k)
+	for (size_t k = 0; bare > 0 && k < states.size(); ++k)
 		if (states[k].bare) bareSlots.push_back(int(k));
 }
 

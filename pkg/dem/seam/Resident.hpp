@@ -22,10 +22,12 @@
 // O.forces stays where forces are added up, in every step: it is not kept twice.
 #pragma once
 
-#include "PythonMade.hpp"
 #include "BodyState.hpp"
+#include "ContactPlaces.hpp"
 #include "ContactState.hpp"
+#include "Holder.hpp"
 #include "KeptContacts.hpp"
+#include "LookClock.hpp"
 #include <atomic>
 #include <boost/weak_ptr.hpp>
 #include <contact/plane/problem.hpp>
@@ -38,10 +40,7 @@ namespace yade::nscd {
 
 class Resident {
 public:
-	/// A contact's place in the order of (lower id, higher id), and in the arrays.
-	struct Place {
-		int low, high, slot;
-	};
+	using Place = ContactPlace;
 
 	/// An interaction that is not real.
 	struct Potential {
@@ -181,28 +180,6 @@ public:
 
 private:
 	friend class Turn;
-	struct Holder {
-		shared_ptr<Interaction> interaction;
-		shared_ptr<IGeom>       geom;
-		shared_ptr<IPhys>       phys;
-
-		void letGo()
-		{
-			nscd::letGo(geom);
-			nscd::letGo(phys);
-			if (interaction
-			    && interaction.use_count() == 1) { // it ends here, with what a script has put into it since
-				nscd::letGo(interaction->geom);
-				nscd::letGo(interaction->phys);
-			}
-			nscd::letGo(interaction);
-		}
-	};
-	/// Of places, or of interactions that are not real: in the order of ids.
-	template <class Item> static bool isBefore(const Item& a, const Item& b)
-	{
-		return std::make_pair(a.low, a.high) < std::make_pair(b.low, b.high);
-	}
 	bool                    takeKnown(Scene& scene);
 	void                    takeShown(Scene& scene);
 	std::vector<FormerSize> resized(const Scene& scene, const std::vector<FormerSize>& changed);
@@ -240,7 +217,7 @@ private:
 	std::vector<int>    bucket;
 	std::vector<Found>  found; // by place in the list of interactions
 	std::map<int, FormerSize> sizesLost; // of spheres whose radius has no sense now, by id
-	double lastShown = 0, costOfLook = 0; // by a clock [s]; of the last time, with what was taken since
+	LookClock                 looks;
 };
 
 /// An engine's turn. Throws std::runtime_error where bodies cannot be read.

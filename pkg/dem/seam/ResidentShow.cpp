@@ -166,8 +166,7 @@ void Resident::show(const Look& look)
 	}
 	bodiesOwned = contactsOwned = false;
 	shownAlone.clear();
-	lastShown  = steadySeconds();
-	costOfLook = lastShown - begin;
+	looks.look(begin);
 }
 
 std::unique_lock<std::recursive_mutex> Resident::betweenTurns()

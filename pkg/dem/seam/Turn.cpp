@@ -67,24 +67,20 @@ void Turn::end()
 	if (!scene._nextEngines.empty()) // which take their places where the step ends, whoever has Python's lock then
 		for (const auto& one : scene.engines)
 			keepUntilLocked(one);
-	if (viewer.name.empty() && othersMayLook(scene)) {
+	const bool wanted = interactionsWanted(scene), others = othersMayLook(scene);
+	if (viewer.name.empty() && others) {
 		if (data->contactsOwned) data->hold(); // another thread may erase what the arrays point to
-		// others may look at any time: as often as it costs a fiftieth, with what is taken again afterwards;
-		// seldom where the script said that nobody does
-		threadEnd.last     = data;
-		const bool   all   = interactionsWanted(scene);
-		const double least = all ? 0.05 : 1, share = all ? 50 : 200;
-		if (steadySeconds() - data->lastShown > std::max(least, share * data->costOfLook))
-			data->show({ "others, now and then", true, all, false });
+		threadEnd.last = data;
+		if (data->looks.isDue(wanted)) data->show({ "others, now and then", true, wanted, false });
 	}
 	if (!viewer.name.empty()) {
-		const bool contacts = !whoLooksAfter(scene, engine, LooksAt::Contacts).name.empty();
-		data->show({ viewer.name, viewer.isPython, true, true, contacts });
+		Resident::Look look { viewer.name, viewer.isPython };
+		look.inSpace = !whoLooksAfter(scene, engine, LooksAt::Contacts).name.empty();
+		data->show(look);
 	}
-	if (const auto& kept = data->inSpace; kept && kept->owned() && othersMayLook(scene)) {
-		kept->hold();
-		const bool all = interactionsWanted(scene);
-		if (kept->isDue(all ? 0.05 : 1, all ? 50 : 200)) kept->show();
+	if (data->hasContactsInSpace() && others) {
+		data->inSpace->hold();
+		if (data->inSpace->isDue(wanted)) data->inSpace->show();
 	}
 	data->interactionsSeen = scene.interactions->size();
 	ended                  = true;

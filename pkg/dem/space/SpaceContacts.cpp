@@ -2,9 +2,7 @@
 #include "../seam/Prefetch.hpp"
 #include "../seam/Recall.hpp"
 #include "../seam/Resident.hpp"
-#include "../seam/StageClock.hpp"
 #include "Vectors.hpp"
-#include <neighbours/bucket_sort.hpp>
 #include <neighbours/thread_part.hpp>
 #include <pkg/common/InsertionSortCollider.hpp>
 
@@ -19,11 +17,6 @@ namespace {
 		IPhys& phys   = *interaction.phys;
 		s.phys        = typeid(phys) == typeid(NscdSpacePhys) ? static_cast<NscdSpacePhys*>(&phys) : nullptr;
 		return s;
-	}
-
-	bool isBefore(const SpaceContacts::Place& a, const SpaceContacts::Place& b)
-	{
-		return std::make_pair(a.low, a.high) < std::make_pair(b.low, b.high);
 	}
 }
 
@@ -126,12 +119,7 @@ void SpaceContacts::take(Scene& scene, const std::vector<BodyState>& bodies, int
 				use(place.low, place);
 	};
 	std::vector<int> begins;
-	nonsmooth::neighbours::sortIntoBuckets(bodies.size(), each, begins, order);
-#pragma omp parallel for schedule(static) num_threads(threads)
-	for (long id = 0; id < size; ++id)
-		std::sort(
-		        order.begin() + begins[id], order.begin() + begins[id + 1],
-		        [](const Place& a, const Place& b) { return a.high < b.high; });
+	orderByIds(bodies.size(), each, threads, begins, order);
 	letAllGo();
 	const long all = (long)order.size();
 	states.resize(all);
@@ -147,7 +135,7 @@ void SpaceContacts::take(Scene& scene, const std::vector<BodyState>& bodies, int
 	strewn   = 0;
 	areKnown = false;
 	areOwned = true;
-	costOfLook += steadySeconds() - begin;
+	looks.takeAgain(begin);
 }
 
 SpaceContacts::Stamp SpaceContacts::stampOf(const Scene& scene)
@@ -223,18 +211,21 @@ void SpaceContacts::change(
 		const bool  held = !holders.empty();
 		const int   slot = freeSlot();
 		states[slot]     = stateOf(*I);
-		if (held) holders[slot] = { I, I->geom, I->phys };
+		if (held) holders[slot] = Holder::of(*I);
 		keep(states[slot]);
 		added.push_back({ p.low, p.high, slot });
 	}
 	eraseAt(potential, begun);
 	potential.insert(potential.end(), left.begin(), left.end());
-	std::sort(added.begin(), added.end(), isBefore);
+	std::sort(added.begin(), added.end(), isBefore<Place>);
 	mergeInto(
 	        order.size(), added.size(), [&](size_t o, size_t a) { return isBefore(added[a], order[o]); },
 	        [&](size_t a, size_t to) { order[to] = added[a]; }, order);
 	strewn += added.size();
-	if (strewn > order.size() / 20) repack();
+	if (!areStrewn(strewn, order)) return;
+	packBySlot(order, threads, states, holders);
+	freeSlots.clear();
+	strewn = 0;
 }
 
 int SpaceContacts::freeSlot()
@@ -247,26 +238,6 @@ int SpaceContacts::freeSlot()
 	const int slot = freeSlots.back();
 	freeSlots.pop_back();
 	return slot;
-}
-
-/// Puts slots into the order of contacts: whoever goes through them meets neighbours in memory.
-void SpaceContacts::repack()
-{
-	const long count = (long)order.size();
-	const auto pack  = [&](auto& items) {
-                if (items.empty()) return;
-                std::remove_reference_t<decltype(items)> sorted(count);
-#pragma omp parallel for schedule(static) num_threads(threads)
-		for (long k = 0; k < count; ++k)
-			sorted[k] = std::move(items[order[k].slot]);
-		items.swap(sorted);
-	};
-	pack(states);
-	pack(holders);
-	for (long k = 0; k < count; ++k)
-		order[k].slot = int(k);
-	freeSlots.clear();
-	strewn = 0;
 }
 
 void SpaceContacts::end(const shared_ptr<Interaction>& interaction, InteractionContainer& list)
@@ -314,13 +285,7 @@ void SpaceContacts::show()
 	}
 	areOwned = false;
 	letAllGo();
-	lastShown  = steadySeconds();
-	costOfLook = lastShown - begin;
-}
-
-bool SpaceContacts::isDue(double least, double share) const
-{
-	return steadySeconds() - lastShown > std::max(least, share * costOfLook);
+	looks.look(begin);
 }
 
 void SpaceContacts::hold()
@@ -330,9 +295,7 @@ void SpaceContacts::hold()
 	holders.resize(count);
 #pragma omp parallel for schedule(static) num_threads(threads)
 	for (long k = 0; k < count; ++k)
-		if (Interaction* I = states[k].interaction)
-			holders[k] = { boost::static_pointer_cast<Interaction>(I->shared_from_this()), I->geom,
-				       I->phys };
+		if (Interaction* I = states[k].interaction) holders[k] = Holder::of(*I);
 }
 
 void SpaceContacts::leaveAlone()

@@ -11,8 +11,9 @@
 #pragma once
 
 #include "../seam/BodyState.hpp"
+#include "../seam/ContactPlaces.hpp"
+#include "../seam/Holder.hpp"
 #include "../seam/KeptContacts.hpp"
-#include "../seam/PythonMade.hpp"
 #include "NscdSpacePhys.hpp"
 #include <contact/space/vector.hpp>
 #include <core/Scene.hpp>
@@ -45,10 +46,7 @@ struct SpaceContactState {
 class SpaceContacts : public KeptContacts {
 public:
 	using State = SpaceContactState;
-	/// A contact's place in the order of (lower id, higher id), and in the array.
-	struct Place {
-		int low, high, slot;
-	};
+	using Place = ContactPlace;
 	/// An interaction that is not real, by its place in the list.
 	struct Potential {
 		int  place, low, high;
@@ -60,7 +58,6 @@ public:
 	void show() override;
 	void hold() override;
 	void leaveAlone() override;
-	bool isDue(double least, double share) const override;
 
 	/// Takes all real interactions of bodies of `bodies`.
 	void take(Scene& scene, const std::vector<BodyState>& bodies, int threads);
@@ -94,17 +91,6 @@ public:
 	std::vector<Potential> potential;
 
 private:
-	struct Holder {
-		shared_ptr<Interaction> interaction;
-		shared_ptr<IGeom>       geom;
-		shared_ptr<IPhys>       phys;
-		void                    letGo()
-		{
-			nscd::letGo(geom);
-			nscd::letGo(phys);
-			nscd::letGo(interaction);
-		}
-	};
 	/// What of a scene tells that its list of interactions is what it was: how many there are, and how often
 	/// colliders have looked for pairs.
 	struct Stamp {
@@ -117,15 +103,13 @@ private:
 	bool         notePotential(InteractionContainer& list);
 	void         letAllGo();
 	int          freeSlot();
-	void         repack();
 
 	int                 threads = 1;
 	Stamp               seen; // when potential interactions were noted
 	bool                areKnown = false; // the potential ones
 	std::vector<Holder> holders; // by slot; none where nothing is held
 	std::vector<int>    freeSlots;
-	size_t              strewn    = 0; // contacts that came since slots were last in their order
-	double              lastShown = 0, costOfLook = 0; // by a clock [s]
+	size_t              strewn = 0; // contacts that came since slots were last in their order
 };
 
 } // namespace yade::nscd

@@ -237,7 +237,7 @@ void SpaceSeam::findContacts(const Scene& scene, const std::vector<BodyState>& a
 			if (const auto open = staysOut(s)) {
 				out.push_back({ order[k], *open });
 				forgetReactions(s);
-				uses[k] = Use::LeftOut;
+				uses[k] = Use::None;
 			}
 		}
 		nonsmooth::neighbours::partOfThread(parts).swap(out);

@@ -61,7 +61,7 @@ private:
 		std::vector<std::pair<int, const Interaction*>> breaks; // (mode, interaction)
 	};
 	/// What becomes of a contact in a step.
-	enum class Use : char { None, Solved, LeftOut, Refused };
+	enum class Use : char { None, Solved, Refused };
 
 	void                     gatherBodies(Scene& scene, const Vector3r& gravity);
 	Use                      useOf(const SpaceContactState& state) const;

@@ -43,7 +43,7 @@ MUTANTS = (
            "test_positions.py::test_what_a_bond_opens_by_is_not_taken_back"),
     mutant("gather-viewer", MAKE, "list->drawloopmutex", "*new std::mutex", "the list of interactions is sorted while a viewer walks along it",
            "test_engine.py::test_the_list_of_interactions_is_not_rewritten_while_a_viewer_walks_along_it"),
-    mutant("gather-order", RESIDENT, "return a.high < b.high;", "return a.slot < b.slot;", "contacts stand in YADE's order and not in that of ids",
+    mutant("gather-order", "pkg/dem/seam/ContactPlaces.hpp", "std::sort(order.begin() + begins[id], order.begin() + begins[id + 1], isBefore<ContactPlace>);", ";", "contacts stand in YADE's order and not in that of ids",
            "test_engine.py::test_contacts_that_came_late_stand_in_the_order_of_ids_too"),
     # ---- seam: scatter
     mutant("scatter-torque", SCATTER, "r.torque            = p.r / h;", "r.torque = p.r;", "the rolling reaction is an impulse",
@@ -287,7 +287,7 @@ MUTANTS = (
            "test_view.py::test_what_is_changed_between_two_runs_is_taken_up[friction]", "test_view.py::test_what_is_changed_between_two_runs_is_taken_up[residualRollingArm]"),
     mutant("take-yield", SCATTER, "r.yielded       = opens;", "r.yielded       = false;", "bonds that opened do not keep their length in the arrays",
            "test_view.py::test_a_loaded_scene_goes_on_in_the_arrays_with_the_same_bits", "test_bonds.py::test_bond_opened_in_tension_keeps_its_new_length"),
-    mutant("take-slots", RESIDENT, "pack(bonds);", ";", "contacts are put in order and get each other's bonds",
+    mutant("take-slots", RESIDENT, "packBySlot(order, threads, states, bonds, rests, surelySolved);", "packBySlot(order, threads, states, rests, surelySolved);", "contacts are put in order and get each other's bonds",
            SAME, OWN),
     mutant("take-walls", "pkg/dem/engines/NscdInteractionLoopFunctors.cpp", "resident.showBodies(looked);", ";", "walls see disks where they were when somebody looked", SAME, OWN),
     mutant("take-beyond", SEGMENT_H, "segment.halfLength + reach", "0.5 * segment.halfLength", "disks above the ends of a wall's segments are not seen to come", "test_collider.py::test_every_pair_of_colliders_and_loops_has_the_same_bits"),
